@@ -326,12 +326,13 @@ class LabelPanel:
         """Add the leaders of some places, with their cost."""
         some = led.nonzero()[0]
         middles, halves, feet, _ = places.forms.take(some, axis=-1).swapaxes(0, 1)
-        owners = self.own[places.owners[some]]
+        owners = self.own.take(places.owners.take(some))
         way = _gap(middles - feet, halves)
         length = np.maximum(np.hypot(*way), 1e-9)
         places.forms[:, 3, some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
         crossed, heaviest = self._crossed(feet, feet + way / length * FOOT_REACH, to)
-        nearest = np.minimum(*(np.hypot(*(ends[:, owners] - feet)) for ends in (self.mark_start, self.mark_end)))
+        marks = self.mark_start.take(owners, axis=1), self.mark_end.take(owners, axis=1)
+        nearest = np.minimum(*(np.hypot(*(ends - feet)) for ends in marks))
         places.costs[some] += LEADER_COST + CROSSED_COST * crossed
         places.costs[some] += END_COST * (~self.mark_is_point[owners] & (nearest < NEAR_END))
         places.bad[some] |= heaviest > 1.0
@@ -368,8 +369,8 @@ class LabelPanel:
         for box, line in near(boxes, [side[self.areas :] for side in self.reach]):
             box, line = others.take(box), line + self.areas
             offset = middles.take(box, axis=1) - self.start.take(line, axis=1)
-            hit = ~separated(offset, halves.take(box, axis=1), along.take(line, axis=1))
-            found.append((box[hit], line[hit]))
+            hit = (~separated(offset, halves.take(box, axis=1), along.take(line, axis=1))).nonzero()[0]
+            found.append((box.take(hit), line.take(hit)))
         return joined(found)
 
     def _needs_leader(self, places: Places) -> Flags:
@@ -380,10 +381,12 @@ class LabelPanel:
         middles, halves, _, _ = places.forms.take(close, axis=-1).swapaxes(0, 1)
         own, reach = self.own[places.owners[close]], halves + (places.gaps[close] + NEARER)
         which, what = joined(near(sides(middles, reach), sides_around(self.mark_start, self.mark_end)))
-        others = (self.mark_is_point[own[which]] == self.mark_is_point[what]) & (own[which] != what)
-        which, what = which[others], what[others]
-        along = (self.mark_end - self.mark_start)[:, what]
-        hit = ~separated(middles[:, which] - self.mark_start[:, what], reach[:, which], along)
+        mine, is_point = own.take(which), self.mark_is_point
+        others = ((mine != what) & (is_point.take(mine) == is_point.take(what))).nonzero()[0]
+        which, what = which.take(others), what.take(others)
+        offset = middles.take(which, axis=1) - self.mark_start.take(what, axis=1)
+        along = (self.mark_end - self.mark_start).take(what, axis=1)
+        hit = ~separated(offset, reach.take(which, axis=1), along)
         led[close[which[hit]]] = True
         return led
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 
 import numpy as np
 
@@ -209,7 +209,7 @@ class Placement:
         crowd = sorted({j for others in met for j in others})
         room, lots = self._room(i, crowd, offers, least)
         taken = self.outlines.take(room, axis=2)
-        clear, beside = ~intersections(self.outlines.take(offers, axis=2), taken), None
+        clear, beside = ~intersections(self.outlines.take(offers, axis=2), taken), dict[int, Flags]()
         costs, room_costs = self.costs[offers].tolist(), self.costs[room].tolist()
         best, moved = (gone, without) if without < paid else None, dict[int, int]()
         for n, others in enumerate(met):
@@ -222,7 +222,8 @@ class Placement:
                 if cost >= least:
                     break
                 if k >= 0 and j != others[-1]:
-                    beside = ~intersections(taken, taken) if beside is None else beside
+                    if k not in beside:
+                        beside[k] = ~intersections(taken[:, :, k : k + 1], taken)[0]
                     left = left & beside[k]
             else:
                 if cost < least:
@@ -262,10 +263,11 @@ class Placement:
         places = self.numbers[i][:count]
         met = self._others_in(i, places)
         crowd = met.sum(axis=0)
-        free = np.flatnonzero(crowd == 0)[:1]
-        few = np.flatnonzero(crowd[: free[0] if free.size else None] <= IN_THE_WAY)[:TRIED]
+        free = (crowd == 0).nonzero()[0][:1]
+        few = (crowd[: free[0] if free.size else None] <= IN_THE_WAY).nonzero()[0][:TRIED]
         some = np.concatenate((few, free))
-        return places[some], [np.flatnonzero(others).tolist() for others in met.T[some]]
+        others = iter(met.T[some].nonzero()[1].tolist())
+        return places[some], [[*islice(others, count)] for count in crowd[some].tolist()]
 
     def _room(
         self, i: int, some: Sequence[int], offers: Indices, least: float
