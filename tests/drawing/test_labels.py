@@ -112,6 +112,14 @@ def test_a_label_stands_beside_its_vector_without_a_leader():
     assert placed.leader is None
 
 
+def test_the_name_of_a_vector_between_vectors_has_a_leader_but_not_between_points():
+    wanted = label("$v_B$", (40 + 50j, 80 + 50j))
+    vectors = [(40 + y * 1j, 80 + y * 1j) for y in (48, 52)]
+    points = [x + y * 1j for x in range(40, 81, 2) for y in (48, 52)]
+    assert place([wanted], PANEL, Obstacles(), vectors)[0].leader is not None
+    assert place([wanted], PANEL, Obstacles(), points)[0].leader is None
+
+
 def test_the_name_of_a_vector_stands_square_off_its_middle():
     vector = 20 + 50j, 120 + 50j
     (placed,) = place([label("$v_B$", vector)], PANEL, Obstacles(solid=(vector,)))
