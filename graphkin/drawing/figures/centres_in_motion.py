@@ -193,7 +193,7 @@ def centrodes_figure(
 
 def _clipped(branches: Sequence[Branch], stroke: Stroke, box: Box) -> tuple[Primitive, ...]:
     """The parts of curves inside a box, each as one polyline."""
-    import shapely  # a centrode is cut at the panel's edge; no other figure needs it
+    import shapely  # a centrode is cut at the panel's edge; few figures need it
 
     places = [np.conj(np.array(branch)) for branch in branches if len(branch) > 1]
     curves = [shapely.linestrings(z.real, z.imag) for z in places]

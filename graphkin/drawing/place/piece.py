@@ -4,7 +4,6 @@ cut; and strokes as obstacles.
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -106,27 +105,18 @@ def cut_to(children: Iterable[Primitive], box: Box, bodies: bool = False) -> tup
 
 def _body_in(body: Polygon | Circle, box: Box) -> Group:
     """The part of an area in a box, and of its outline, which has no line along the edge of the box."""
-    if isinstance(body, Circle):
-        around = tuple(body.centre + cmath.rect(body.radius, math.radians(2 * i)) for i in range(180))
-        body = Polygon(around, body.fill, body.stroke)
-    area, runs = [*body.points], list[list[complex]]()
-    for turn, least in ((1, box.left), (-1, -box.right), (-1j, box.top), (1j, -box.bottom)):
-        kept = list[complex]()
-        for a, b in pairwise([*area, *area[:1]]):
-            here, there = (a * turn).real - least, (b * turn).real - least
-            if here >= 0.0:
-                kept.append(a)
-            if here * there < 0.0:
-                kept.append(a + (b - a) * here / (here - there))
-        area = kept
-    for a, b in pairwise((*body.points, body.points[0])):
-        inside = box.clip(a, b)
-        if inside is not None and runs and runs[-1][-1] == inside[0]:
-            runs[-1].append(inside[1])
-        elif inside is not None and inside[0] != inside[1]:
-            runs.append([*inside])
-    filled = (Polygon(tuple(area), body.fill),) if body.fill and area else ()
-    return Group((*filled, *(Polyline(tuple(run), body.stroke) for run in runs if body.stroke is not None)))
+    import shapely  # few bodies are larger than their panel
+
+    ring = _round(body) if isinstance(body, Circle) else (*body.points, body.points[0])
+    corners = [(place.real, place.imag) for place in ring]
+
+    def inside(shape: shapely.Geometry) -> list[tuple[complex, ...]]:
+        parts = shapely.get_parts(shapely.clip_by_rect(shape, box.left, box.top, box.right, box.bottom))
+        return [tuple(complex(*place) for place in shapely.get_coordinates(part).tolist()) for part in parts]
+
+    filled = [Polygon(area, body.fill) for area in inside(shapely.Polygon(corners)) if body.fill]
+    lines = [Polyline(line, body.stroke) for line in inside(shapely.LineString(corners)) if body.stroke]
+    return Group((*filled, *lines))
 
 
 def kept_in(piece: Piece, box: Box) -> int:
