@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from io import BytesIO
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING, Literal
 from zlib import crc32
 
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 FAMILY = "Graphkin Serif"
 FOLDER = Path(__file__).parent / "fonts"
 EM = 1000
+READING = Lock()
+"""fontTools reads a table when it is first asked for, in one thread at a time; the page answers in several."""
 Style = Literal["regular", "italic", "bold"]
 
 
@@ -67,8 +70,9 @@ def _own_glyph(code: int, style: Style) -> Glyph | None:
     font, names = _face(style)
     if (name := names.get(code)) is None:
         return None
-    outlines = font["glyf"]
-    return Glyph(font["hmtx"][name][0], outlines.glyphs[name].compile(outlines, recalcBBoxes=False))
+    with READING:
+        outlines = font["glyf"]
+        return Glyph(font["hmtx"][name][0], outlines.glyphs[name].compile(outlines, recalcBBoxes=False))
 
 
 @lru_cache(maxsize=4096)
@@ -145,6 +149,11 @@ EPS = 1.0  # thousandths of the size by which an outline may be moved as it beco
 def machine_glyph(character: str) -> tuple[int, bytes] | None:
     """Advance and simple TrueType outline of a glyph in thousandths of the size; None where no known face is
     installed or none has it."""
+    with READING:
+        return _machine_glyph(character)
+
+
+def _machine_glyph(character: str) -> tuple[int, bytes] | None:
     font = _font()
     name = font.getBestCmap().get(ord(character)) if font is not None else None
     if font is None or name is None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import re
+import sys
 import xml.etree.ElementTree as ET
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -105,3 +107,16 @@ def test_a_sign_that_only_the_regular_face_has_is_that_sign_in_every_face():
     regular = glyph("丁")
     assert regular is not None
     assert [regular, regular] == [glyph("丁", "italic"), glyph("丁", "bold")]
+
+
+def test_two_threads_read_a_face_at_once():
+    whole, often = [glyph(c) for c in "ABCD"], sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(4) as threads:
+            for _ in range(20):
+                font._face.cache_clear()
+                glyph.cache_clear()
+                assert whole == list(threads.map(glyph, "ABCD"))
+    finally:
+        sys.setswitchinterval(often)
