@@ -142,6 +142,7 @@ class TaskBoard(Board):
 
 
 def not_drawn(what: str, finding: str, wanted: str) -> Unsolvable:
+    """The error of a task that has no drawing: the key of the file, and the phrases of its finding and of a remedy."""
     return Unsolvable("not drawn", Problem(what, Phrase(finding), Phrase(wanted)))
 
 
