@@ -67,10 +67,10 @@ def _face(style: Style) -> tuple[TTFont, Mapping[int, str]]:
 
 
 def _own_glyph(code: int, style: Style) -> Glyph | None:
-    font, names = _face(style)
-    if (name := names.get(code)) is None:
-        return None
     with READING:
+        font, names = _face(style)
+        if (name := names.get(code)) is None:
+            return None
         outlines = font["glyf"]
         return Glyph(font["hmtx"][name][0], outlines.glyphs[name].compile(outlines, recalcBBoxes=False))
 
@@ -78,7 +78,11 @@ def _own_glyph(code: int, style: Style) -> Glyph | None:
 @lru_cache(maxsize=4096)
 def holds(text: str) -> bool:
     """Whether the family has all Chinese characters of a text."""
-    return all(ord(c) <= 0x2E7F or ord(c) in _face("regular")[1] for c in text)
+    codes = {code for code in map(ord, text) if code > 0x2E7F}
+    if not codes:
+        return True
+    with READING:
+        return codes <= _face("regular")[1].keys()
 
 
 @lru_cache(maxsize=8192)

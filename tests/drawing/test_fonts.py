@@ -115,6 +115,7 @@ def test_two_threads_read_a_face_at_once():
     try:
         with ThreadPoolExecutor(4) as threads:
             for _ in range(20):
+                font._face("regular")[0].close()
                 font._face.cache_clear()
                 glyph.cache_clear()
                 assert whole == list(threads.map(glyph, "ABCD"))
