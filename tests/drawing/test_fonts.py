@@ -115,7 +115,8 @@ def test_two_threads_read_a_face_at_once():
     try:
         with ThreadPoolExecutor(4) as threads:
             for _ in range(20):
-                font._face("regular")[0].close()
+                for style in ("regular", "italic", "bold"):
+                    font._face(style)[0].close()
                 font._face.cache_clear()
                 glyph.cache_clear()
                 assert whole == list(threads.map(glyph, "ABCD"))
