@@ -10,9 +10,10 @@ travel) chooses one where there are several.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene import model
@@ -262,19 +263,36 @@ def placed_driver(where: str, driver: model.Driver, value: float, reading: Readi
     return driver.moving(law)
 
 
-def stated_driver(table: Driver | DrivenSlide, driver: model.Driver, units: Units) -> Driver | DrivenSlide:
-    """The table of a driver with its present value and rates; with a law, at its present moment."""
+def stated_driver(driver: model.Driver, tables: Iterable[Driver | DrivenSlide], units: Units) -> Driver | DrivenSlide:
+    """The table of a driver with its present value and rates; with a law, at its present moment.
+
+    Parameters
+    ----------
+    tables : of the file, where one of them may be that of this driver
+    """
+    table: Any = next((in_si(table, units) for table in tables if _drives(table, driver)), None)
     value, rate, second = (None, None, 0.0) if driver.law is not None else driver.values
     time = None if driver.law is None else driver.law.time
-    made: Driver | DrivenSlide
+    if driver.distance is not None:
+        value = driver.distance
+    elif table is not None:
+        table = replace(table, origin=None, near=None)
+    if not driver.turns:
+        slide = table or DrivenSlide(slide=driver.slide)
+        return in_units(replace(slide, travel=value, velocity=rate, acceleration=second, time=time), units)
+    speed = None if driver.given_speed is None else driver.given_speed[1]
+    crank = table or Driver(link=driver.link, relative_to=driver.relative_to)
+    value, position = (None, crank.position) if driver.position else (value, None)
+    return in_units(replace(crank, angle=value, omega=rate if speed is None else None, rpm=None, speed=speed,
+                            alpha=second, sense=None, position=position, time=time), units)  # fmt: skip
+
+
+def _drives(table: Driver | DrivenSlide, driver: model.Driver) -> bool:
+    """Whether a table is that of a driver: of the same link, or of the same sliding pair, however its name is written.
+    """
     if isinstance(table, Driver):
-        speed = None if driver.given_speed is None else driver.given_speed[1]
-        rate = rate if speed is None else None
-        made = replace(table, angle=value, omega=rate, rpm=None, speed=speed, alpha=second, sense=None, origin=None,
-                       near=None, position=None, time=time)  # fmt: skip
-    else:
-        made = replace(table, travel=value, velocity=rate, acceleration=second, origin=None, near=None, time=time)
-    return in_units(made, units)
+        return driver.turns and table.link == driver.link
+    return table.slide in (driver.slide, driver.slide.split("/")[0])
 
 
 def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:

@@ -218,7 +218,8 @@ def toml_text(mapping: Tables) -> str:
     text = tomlkit.document()
     for key in sorted(mapping, key=lambda key: _is_table(mapping[key])):  # tables come after what stands alone
         given = mapping[key]
-        if key in ("links", "pins", "contacts", "gears", "cams") and _is_table(given):
+        named = isinstance(given, Mapping) and SCENE.table_at((key, "")) is not None
+        if named and all(isinstance(item, Mapping) for item in given.values()):
             made = tomlkit.table(is_super_table=True)
             for name, item in given.items():
                 made.append(name, table(item))
@@ -343,7 +344,7 @@ def as_mapping(scene: Mechanism) -> OwnTables:
     held = {contact.centres[0] for contact in scene.contacts if contact.rolling and contact.flat}
     sketch = {point: z for point, z in {**scene.drawn, **scene.sketch}.items() if point not in scene.frame.points}
     tables = driver_tables(file).values()
-    drivers = [stated_driver(*pair, scene.units) for pair in zip(tables, scene.drivers, strict=False)]
+    drivers = [stated_driver(driver, tables, scene.units) for driver in scene.drivers if driver.given]
     made = plain(replace(
         file, driver=drivers, frame=_body(scene, scene.frame, file.frame, file.frame.points, "points"),
         links={name: _link(scene, scene.by_name[name], table) for name, table in file.links.items()
@@ -445,12 +446,10 @@ class Scene(SceneTables):
 
     @classmethod
     def saying(cls, mechanism: Mechanism) -> Scene:
-        """The scene of a mechanism: the scene that it was read from, or, where links or drivers were replaced since,
-        all places in the links' own axes."""
+        """The scene of a mechanism: the scene that it was read from, or, where anything of it was replaced since, all
+        places in the links' own axes."""
         scene = cls.of(plain(mechanism.question.written or {}), mechanism.name)
-        read, bodies = scene.mechanism, (mechanism.frame, *mechanism.links)
-        kept = all(driver in read.drivers for driver in mechanism.drivers)
-        kept = kept and all(read.by_name.get(body.name) == body for body in bodies)
+        kept = replace(mechanism, question=scene.mechanism.question) == scene.mechanism
         return scene if kept else cls.of(as_mapping(mechanism), mechanism.name)
 
     @property

@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, replace
 from difflib import get_close_matches
 from functools import cache
+from itertools import takewhile
 from numbers import Integral, Real
 from typing import (
     TYPE_CHECKING,
@@ -454,7 +455,7 @@ class Form(Generic[AnyTable]):
                 if meant is not None:
                     _read_as(raw, path, meant)
                 else:
-                    cut = _take_out(raw, _cut(path))
+                    cut = _take_out(raw, self._cut(loc))
                     if item["type"] != UNKNOWN or isinstance(item["input"], list | dict):
                         gone.add(cut)
             if self.needed and not raw.get(self.needed):
@@ -493,6 +494,15 @@ class Form(Generic[AnyTable]):
         whole = tables.pop(self.whole.__name__)
         head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "$defs": dict(sorted(tables.items()))}
         return {**head, **whole, "title": self.title}
+
+    def _cut(self, loc: KeyPath) -> KeyPath:
+        """The smallest entry of the file that can be taken out to remove an error at a place: the key of a table, or a
+        name under it, but of tables inside the key's value none; without a needed key the table goes too."""
+        tables = {n: table for n in range(len(loc)) if (table := self.table_at(loc[:n])) is not None}
+        key, end = [*tables][:2][-1], ([*tables][2:] or [len(loc)])[0]
+        needed = {key_of(each) for each in keys_of(tables[key]) if each.default is each.default_factory is MISSING}
+        cut = _written_path(loc[:key] if key and loc[key] in needed else loc[:end])
+        return cut[: len(cut) - sum(1 for _ in takewhile(lambda part: isinstance(part, int), reversed(cut)))]
 
     def _meant(self, loc: KeyPath, raw: OwnTables) -> str | None:
         """The key that a misspelt one stands for, where it is near and not written as well, or both are tables."""
@@ -620,22 +630,6 @@ def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
     made = copy(source, ())
     assert isinstance(made, dict)
     return made
-
-
-def _cut(path: KeyPath) -> KeyPath:
-    """The smallest entry of the file that can be taken out to remove an error at ``path``."""
-    head, inside = str(path[0]), str(path[2]) if len(path) > 2 else ""
-    if head == "links":
-        return path[: 4 if inside in ("at", "guides", "discs") else 3]
-    if head == "frame":
-        return path[: 3 if path[1:2] and path[1] in ("points", "guides", "discs") else 2]
-    if head == "driver" and path[-1] in ("link", "slide"):  # without it the form of the driver is not known
-        return path[:1]
-    if head == "driver":
-        return path[: 3 if isinstance(path[1:2] and path[1], int) else 2]
-    if head in ("masses", "loads") and inside in ("mass", "weight", "inertia", "force", "moment"):
-        return path[:3]
-    return path[: 3 if head == "cams" else 2]
 
 
 def _read_as(raw: OwnTables, path: KeyPath, key: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -71,3 +72,36 @@ def test_the_law_of_a_driver_is_written_out() -> None:
     made = graphkin.read("fourbar-150-500-300-400").to_dict() | {"driver": {"link": "1", "law": law, "time": 0.5}}
     stated = as_mapping(graphkin.Scene.of(made).mechanism)["driver"][0]
     assert {"link": "1", "law": law, "time": 0.5} == stated
+
+
+TOLD = [graphkin.Scene.saying, lambda mechanism: graphkin.Scene.of(as_mapping(mechanism))]
+
+
+@pytest.mark.parametrize("told", TOLD, ids=["saying", "mapping"])
+@pytest.mark.parametrize("kept", [slice(None, None, -1), slice(1, None), slice(0)], ids=["turned", "last", "none"])
+def test_drivers_in_another_order_or_fewer_are_written_as_they_are(told, kept) -> None:
+    mechanism = mechanism_of("loader-cylinder")
+    fewer = replace(mechanism, drivers=mechanism.drivers[kept])
+    assert fewer.drivers == told(fewer).mechanism.drivers
+
+
+@pytest.mark.parametrize("told", TOLD, ids=["saying", "mapping"])
+@pytest.mark.parametrize("driver", [{"link": "3", "from": "dead point", "angle": -0.5, "omega": 1, "near": 120},
+                                    {"link": "3", "angle": 86, "omega": 1}])  # fmt: skip
+def test_another_driver_is_written_with_its_dead_point(told, driver) -> None:
+    scene = graphkin.read("fourbar-150-500-300-400").replace("driver", driver)
+    slower = replace(scene.mechanism, drivers=(scene.mechanism.drivers[0].at_rate(0.5),))
+    assert driver | {"omega": 0.5} == told(slower).to_dict()["driver"][0]
+    moved = replace(mechanism_of("fourbar-150-500-300-400"), drivers=slower.drivers)
+    assert ("3", 0.5) == (moved.drivers[0].link, told(moved).mechanism.drivers[0].rate)
+
+
+def test_a_sliding_pair_turned_in_python_is_written_so() -> None:
+    mechanism = mechanism_of("sixbar-guide-40deg")
+    turned = replace(mechanism, slides=tuple(replace(pair, turn=1j) for pair in mechanism.slides))
+    assert turned.slides == graphkin.Scene.saying(turned).mechanism.slides
+
+
+def test_masses_have_tables_of_their_own_and_what_is_no_table_is_written_as_it_stands() -> None:
+    assert "\n[masses.4]\n" in toml_text(graphkin.read("shaper-forces").to_dict())
+    assert {"links": {"1": 5}} == tomllib.loads(toml_text({"links": {"1": 5}}))
