@@ -94,14 +94,14 @@ def report_on(
     ------
     Unsolvable : "dead point": the balance does no work
     """
-    motion = as_drawn(motion, sheet.structure)
     if sheet.has_forces:
         from graphkin.construction.forces import with_forces
 
+        motion = as_drawn(motion, sheet.structure)
         forces_here(motion)  # it tells best why there are none
         sheet = with_forces(sheet, hand)
     readings = read_off(sheet, (), hand)
-    symbols = [reading.symbol for reading in readings]
+    symbols, motion = [reading.symbol for reading in readings], as_drawn(motion, sheet.structure)
     rounding, exact = rounding_of(motion, symbols, sheet.has_forces), exact_values(motion, symbols)
     return compare(sheet, readings, exact, sheet.asked, predicted, rounding)
 

@@ -194,7 +194,9 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
     solved = motion.structure.scene
     if len(solved.drivers) < len(structure.scene.drivers):  # solved for what leads to the asked alone
         structure = structure_of(part_of(structure, solved.question.find))
-    if structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys():
+    if structure is motion.structure or (
+        structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys()
+    ):
         return motion
     poses = dict(motion.poses)
     for slide in structure.slides:
