@@ -240,6 +240,8 @@ def _motion(
     for reading, value in pairs:
         if reading.symbol in by_drivers:
             led[reading.symbol.kind] = max(led.get(reading.symbol.kind, 0.0), abs(value))
+    # a velocity that does not change has an acceleration of rounding alone
+    led["a"] = max(led.get("a", 0.0), led.get("v", 0.0) ** 2 / sheet.scene.size)
     share = max(EXACT_TOLERANCE, _grain(sheet))
 
     def compared(reading: Reading, value: Value) -> Compared:
@@ -251,8 +253,9 @@ def _motion(
         if not symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
             rounded = max(rounded, floor)
         made = row(reading, value, most, floor, rounded, share, least, not lost.slight, alone)
-        if alone and (not made.determined or 0.0 < abs(value) <= floor):
+        if alone and (not made.ok or 0.0 < abs(value) <= floor):
             # no group comes before it whose rounding it could have
+            most = max(most, led[symbol.kind])
             made = row(reading, value, most, min(floor, CANCELLED * led[symbol.kind]), 0.0, share, least, False, True)
         return made
 

@@ -190,7 +190,9 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     if driver.velocity is None and driver.law is None and not lost & {"velocity", "law"}:
         reading.say(f"{where}.velocity", "is missing", "write velocity per second it may be 0")
     what, _, on = driver.slide.partition("/")
-    pairs = {p.key: p.b for p in reading.slides if p.a == what}
+    # the whole key first: a pin may bear the name of a link that slides elsewhere
+    pairs = {p.key: p.b for p in reading.slides if p.key == driver.slide}
+    pairs = pairs or {p.key: p.b for p in reading.slides if p.a == what}
     pairs = pairs or {p.key: p.b for p in reading.slides if p.of and p.pin == what}
     keys = [pair for pair, rail in pairs.items() if rail in (on or rail,) and rail == (driver.relative_to or rail)]
     known = reading.pairs

@@ -273,7 +273,9 @@ def _path(posed: AnyPosed, kind: str, of: PointRef, to: PointRef) -> tuple[str, 
     """
     links = posed.structure.scene.by_name
     curved = (s for s in posed.slides if s.guide.curvature and s.pin == of.point)
-    slide = next((s for s in curved if s.b in (of.link, to.link)), None)
+    # another link at the slot's guide has no part in the path
+    ends = ((s, guides, slides) for s in curved for slides, guides in ((of, to), (to, of)))
+    slide = next((s for s, guides, slides in ends if guides.link == s.b and _is_on(posed, slides, s.body)), None)
     if slide is not None and kind != "at":
         return slide.b, 1j * posed.guide(slide).u
     contact = posed.structure.scene.contact_at.get(of.point)
@@ -342,7 +344,8 @@ def _guiding(posed: AnyPosed, symbol: Symbol, of: PointRef, to: PointRef) -> str
                 continue
             # another link that is pinned there too has another rate, and so another Coriolis term
             if guides.link == pair.b or (not guides.link and _is_on(posed, guides, pair.b)):
-                return pair.b
+                # a link whose pin runs in a slot turns against it: only its pin moves along the guide
+                return to.link if pair.higher and to.link and pair.pin != of.point else pair.b
     # links of a group that are drawn as one, seen from one of them
     together = [{*group.members} for group in posed.structure.larger_groups]
     if of.point == to.point and any({of.link, to.link} <= members for members in together):

@@ -207,3 +207,14 @@ def test_forces_are_judged_by_what_rounding_leaves_of_them_near_a_dead_point(bef
     assert {True if known else None} == {row.ok for row in pairs}
     # they differ by more than is allowed elsewhere
     assert 1e-9 < max(abs(row.reading.value - row.exact) / abs(row.exact) for row in pairs)
+
+
+@pytest.mark.parametrize("angle", [0, 30])
+def test_a_pin_driven_evenly_along_a_slot_has_no_acceleration_but_rounding(angle):
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -50], "angle": angle}}},
+        "links": {"1": {"points": ["A", "B"], "length": 90}, "2": {"points": ["B", "C"], "length": 130}},
+        "pins": {"C": {"of": "2", "in": "0.h"}},
+        "driver": {"slide": "C/0", "travel": 60, "velocity": -30},
+    }
+    assert graphkin.check(scene).ok

@@ -189,3 +189,18 @@ def test_a_wheel_that_the_shaft_of_a_cam_turns_stands_where_it_has_rolled() -> N
 @pytest.mark.parametrize(("name", "drawn"), [("geneva-step", True), ("slotter-75-150", False)])
 def test_readings_at_contacts_are_those_of_pins_in_slots_not_of_blocks(name, drawn):
     assert drawn == ("at_contact" in check(name).data["readings"][0])
+
+
+def test_a_link_that_slides_on_another_has_no_part_in_the_path_of_a_pin_in_its_circular_slot():
+    scene = {
+        "frame": {"points": {"A": [0, 0], "F": [150, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 60},
+            "2": {"on": "1", "guides": {"c": {"centre": [100, 30], "r": 70}}},
+            "4": {"points": ["F", "P"], "length": 80},
+        },
+        "pins": {"P": {"of": "4", "in": "2.c"}},
+        "driver": [{"link": "1", "angle": 20, "omega": 3}, {"link": "4", "angle": 100, "omega": -2}],
+        "sketch": {"P": [136, 79]},
+    }  # fmt: skip
+    assert check(scene).ok

@@ -285,7 +285,24 @@ def test_a_group_of_which_only_driven_blocks_can_be_left_out_is_drawn(at: float)
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 
 
-@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED, WELDED])
+SLOTTED: dict[str, Any] = {  # links of later groups have their pins in slots of what is left out for a trial
+    "frame": {"points": {"A": [34, 65], "C": [63, 100], "E": [-58, 120]}},
+    "links": {
+        "1": {"points": ["B", "A"], "length": 65.5, "guides": {"s": {"through": [20, 15], "angle": 20}}},
+        "2": {"points": ["E", "F"], "length": 260, "at": {"G": [187, -29]}},
+        "3": {"points": ["B", "H"], "length": 282.4, "at": {"I": [-40, 32]}},
+        "4": {"points": ["F", "H"], "length": 300},
+        "5": {"points": ["G", "I"], "length": 155.5, "guides": {"s": {"through": [0, 20], "angle": 0}}},
+        "6": {"points": ["C", "K"], "length": 75}, "7": {"points": ["C", "J"], "length": 26},
+    },
+    "pins": {"J": {"of": "7", "in": "1.s"}, "K": {"of": "6", "in": "5.s"}},
+    "driver": {"link": "4", "angle": -161, "omega": 10},
+    "sketch": {"B": [-16, 107], "F": [140, -48], "G": [66, -23], "H": [-143, -145], "I": [30, 128], "J": [37, 95],
+               "K": [33, 31]},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED, WELDED, SLOTTED])
 def test_groups_far_from_points_and_fits_are_drawn_where_they_are_sketched(scene: dict[str, Any]) -> None:
     result = graphkin.check(scene)
     assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}

@@ -95,3 +95,21 @@ def test_in_a_parallelogram_lies_no_special_point_that_could_be_told_of(way: flo
     assert ("superposition", []) == (result.data["construction"], off(result))
     trials = [step for step in result.sheet.steps if isinstance(step, RateTrial)]
     assert [None, None] == [trial.far for trial in trials if trial.trial == 1]
+
+
+def test_the_coriolis_term_of_a_point_beside_the_pin_is_that_of_the_link_from_which_it_is_seen() -> None:
+    two_slots = {
+        "frame": {"points": {"Z": [-100, -43]}},
+        "links": {
+            "2": {"points": ["N", "Z"], "length": 46,
+                  "guides": {"p": {"through": [133, -23], "angle": -93}, "q": {"through": [228, -24], "angle": -24}}},
+            "3": {"points": ["I", "W"], "length": 190, "at": {"V": [28, 40]}},
+        },
+        "pins": {"W": {"of": "3", "in": "2.p"}, "V": {"of": "3", "in": "2.q"}},
+        "driver": [{"link": "3", "angle": -105, "omega": 10, "alpha": 5},
+                   {"slide": "V/2", "travel": 59, "velocity": -30}],
+        "sketch": {"N": [-134, -74], "W": [34, -68], "V": [107, 81]},
+    }  # fmt: skip
+    result = graphkin.check(two_slots)
+    seen = 2 * abs(result["v_Z@2/Z@3"].exact) * 10
+    assert (seen, []) == (pytest.approx(abs(result["ak_Z@2/Z@3"].exact)), off(result))

@@ -8,7 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import SceneError
-from graphkin.scene import mechanism_of_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.tables import value_at
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
@@ -218,6 +218,21 @@ def test_a_pin_and_a_sliding_pair_do_not_share_their_name() -> None:
     text = changed(SIX_BAR, ("[links.4]", "[links.D]"), ("[driver]", '[pins.D]\nof = "5"\nin = "3"\n[driver]'))
     [sentence] = messages(text)
     assert "D/3 is also the name of a sliding pair; rename link D" in sentence
+
+
+def test_a_driven_pin_may_bear_the_name_of_a_link_that_slides_elsewhere() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -50], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40, "guides": {"s": {"through": [0, 10], "angle": 0}}},
+            "2": {"points": ["E", "D"], "length": 130},
+            "D": {"points": ["E"], "on": "0.h"},
+        },
+        "pins": {"D": {"of": "2", "in": "1.s"}},
+        "driver": [{"link": "1", "angle": 50, "omega": 3}, {"slide": "D/1", "travel": 70, "velocity": 20}],
+        "sketch": {"D": [40, 60], "E": [90, -50]},
+    }
+    assert ["1", "D/1"] == [driver.key for driver in mechanism_of(scene).drivers]
 
 
 def test_a_long_name_is_refused() -> None:

@@ -173,7 +173,7 @@ def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> It
     """The removable parts of a group: bars with two hinges, links with a hinge and a guide or two guides, drivers."""
     scene = structure.scene
     touching = {n for pair in scene.acting for n in (*pair.members, *((pair.block,) if pair.rolling else ()))}
-    touching |= {n for slide in scene.slides if slide.higher for n in slide.bodies}
+    touching |= {n for slide in scene.slides if slide.higher and slide in group.pairs for n in slide.bodies}
     keys = {d.key for d in scene.drivers}
     for name in group.members:
         if name in touching:
