@@ -94,6 +94,12 @@ class GraphkinError(Exception):
         """The problems in a language, a line for each."""
         return "\n".join(p.text(language) for p in self.problems)
 
+    @property
+    def reason(self) -> Wording:
+        """The problems as a phrase of one line."""
+        said: Wording = joined("problem after problem", (problem.sentence for problem in self.problems))
+        return said
+
     def __reduce__(self) -> tuple[type[GraphkinError], tuple[Problem, ...]]:
         return type(self), self.problems
 
@@ -129,12 +135,6 @@ class Unsolvable(GraphkinError):
     def why(self) -> str:
         """The reason in one line, in English."""
         return str(self.reason)
-
-    @property
-    def reason(self) -> Wording:
-        """The reason as a phrase of one line."""
-        said: Wording = joined("problem after problem", (problem.sentence for problem in self.problems))
-        return said
 
 
 class Disagreement(GraphkinError):

@@ -140,5 +140,5 @@ def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> l
                     out.write(piece)
     except OSError as error:
         raise CallError.of(str(folder), "cannot be written", "give another folder with o",
-                           reason=from_others(error.strerror or str(error))) from None
+                           reason=from_others(error)) from None
     return [folder / name for name in files]

@@ -30,7 +30,7 @@ from typing import IO, TYPE_CHECKING, Any, ParamSpec, TypeVar
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json, Tables, whole_file
 from graphkin.version import __version__
-from graphkin.words import Phrase
+from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -333,7 +333,7 @@ def cluster(address: str) -> Executor:
         client = Client(address, timeout="10s", set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise CallError.of(f"--scheduler {address}", "no dask scheduler answers", "give tcp host 8786",
-                           error=error) from None
+                           error=from_others(error)) from None
     return _Cluster(client)
 
 

@@ -379,8 +379,7 @@ class Table:
                     with _parquet(self, arrow.schema, out) as writer:
                         writer.write_table(arrow)
         except OSError as error:
-            raise CallError.of(str(path), "cannot be written",
-                               reason=from_others(error.strerror or str(error))) from None
+            raise CallError.of(str(path), "cannot be written", reason=from_others(error)) from None
         return target
 
 
@@ -635,8 +634,7 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
         with opened(path_of(path)) as stream:
             data = stream.read(largest + 1)
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise CallError.of(shown, "cannot be read", "name a csv file", reason=from_others(reason)) from None
+        raise CallError.of(shown, "cannot be read", "name a csv file", reason=from_others(error)) from None
     if len(data) > largest:
         raise CallError.of(shown, "is larger than mb", "give fewer rows", largest=largest // 1_000_000)
     text = ""
@@ -652,7 +650,7 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
         reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
         lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
     except csv.Error as error:
-        raise CallError.of(shown, "is no table", "save it as csv", error=error) from None
+        raise CallError.of(shown, "is no table", "save it as csv", error=from_others(error)) from None
     if len(lines) < 2:
         raise CallError.of(shown, "has no rows", "write a line of heads and a line")
     return Rows(lines[0][1], tuple(lines[1:]), sign)

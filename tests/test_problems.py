@@ -15,7 +15,7 @@ import pytest
 import graphkin
 import graphkin.scene.designs
 from graphkin.api.report_text import report_text
-from graphkin.errors import CallError, Problem, SceneError
+from graphkin.errors import CallError, GraphkinError, Problem, SceneError
 from graphkin.scene.scene import library_text
 from graphkin.scene.tables import FileTable, key_of, keys_of, meaning
 from graphkin.words import Phrase, area, from_others, say, word
@@ -93,6 +93,10 @@ def test_every_key_has_its_meaning_in_words_or_a_name_that_says_it():
     ("没有命令“drw”；是否指 'draw'？", "No such command 'drw'. Did you mean 'draw'?"),
     ("没有这个文件或文件夹", "No such file or directory"),
     ("多出几个参数（a b）", "Got unexpected extra argument(s) (a b)"),
+    ("第 1 行第 2 列（字符 1）：应为双引号中的键名",
+     "Expecting property name enclosed in double quotes: line 1 column 2 (char 1)"),
+    ("已有同名文件", FileExistsError(17, "File exists")),
+    ("压缩包中没有 'geogebra.xml'", KeyError("There is no item named 'geogebra.xml' in the archive")),
     ("a sentence that no table has", "a sentence that no table has"),
 ])  # fmt: skip
 def test_sentences_of_other_programs_are_known_by_their_words(chinese, sentence):
@@ -177,6 +181,44 @@ def test_names_in_a_refusal_are_joined_in_its_language(name, old, new, said):
     with pytest.raises(SceneError) as refused:
         graphkin.read(tomllib.loads(text.replace(old, new)))
     assert re.search(said, refused.value.text("zh"), re.MULTILINE)
+
+
+@pytest.mark.parametrize(("english", "chinese", "name", "tables"), [
+    ("does not come back: a turn leaves the follower at 20; all that rises falls again",
+     "没有回到原处：转一周后从动件的位移为 20；升程应等于回程", "cam-flat-face",
+     {"cams": {"1": {"base": {"r": 40}, "follower": "2", "law": [{"to": 150, "rise": 20, "by": "345"}, {"to": 360}]}}}),
+    ('found "2"; a whole number is wanted', "读到 \"2\"；应为整数", "shaper-forces", {"positions": {"count": "2"}}),
+    ("positions.show.1: found a table; a text is wanted", "positions.show.1：读到表；应为文字", "shaper-forces",
+     {"positions": {"show": [{"a": 1}]}}),
+    ('title: found ["a", 2, ...]; a text', 'title：读到 ["a", 2, ...]；应为文字', "whitworth",
+     {"title": ["a", 2, {"a": 1}]}),
+    ("between: found nothing; two different points", "between：读到无；应为两个不同的点", "rocker-return-spring",
+     {"springs": {"R": {"between": [], "rate": 1, "free": 1}}}),
+    ("names no point; write for example a_B, a_B@3, a_C/B", "没有写点；例如写 a_B, a_B@3, a_C/B", "whitworth",
+     {"find": ["a_9"]}),
+    ("position 7: the scene has no [positions]", "位置 7：机构文件没有 [positions] 表", "whitworth", {}),
+])  # fmt: skip
+def test_a_refusal_names_its_values_in_its_language(english, chinese, name, tables):
+    with pytest.raises(GraphkinError) as refused:
+        graphkin.check({**tomllib.loads(library_text(name)), **tables}, at="7")
+    assert english in refused.value.text()
+    assert chinese in refused.value.text("zh")
+
+
+def test_a_design_file_with_an_empty_table_is_refused_in_words():
+    with pytest.raises(SceneError) as refused:
+        graphkin.design({"design": {}})
+    assert "design: is missing; a design file has a table [design] with kind and its data" == refused.value.text()
+
+
+@pytest.mark.parametrize(("said", "name", "text"), [
+    ("c：不是 XML：第 1 行第 15 列：标签不配对；请在 Linkage 中重新保存", "c.linkage2", "<linkage2><a></linkage2>"),
+    ("c：不是 JSON：第 1 行第 2 列（字符 1）：应为双引号中的键名；请在 pylinkage 中重新保存", "c.json", "{"),
+])  # fmt: skip
+def test_a_file_of_another_program_is_refused_in_chinese(tmp_path, said, name, text):
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    done = run("convert", str(tmp_path / name), "--lang", "zh")
+    assert (2, f"graphkin: {said}\n") == (done.returncode, done.stderr)
 
 
 def test_what_is_printed_for_programs_says_the_same_in_every_language():

@@ -167,7 +167,7 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
         raise CallError.of("at", "the scene has no driver", "give one in the file")
     if isinstance(at, str):
         if scene.question.positions is None:
-            raise CallError.of(f'position "{at:.40}"', "the scene has no positions table",
+            raise CallError.of(Phrase("position", name=f"{at:.40}"), "the scene has no positions table",
                                "give a value of driver at 75 or", key=scene.drivers[0].key)
         return {scene.drivers[0].key: value_at(scene, at)}
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}

@@ -18,7 +18,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import told
 from graphkin.scene.scene import Scene, SceneLike, safe_name, toml_text, written
 from graphkin.table import Table
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -29,7 +29,7 @@ class Converted(Result):
     scene: Scene
     ending: str
     text: str
-    left: tuple[str, ...]
+    left: tuple[Wording, ...]
 
     @property
     def ok(self) -> bool:
@@ -44,7 +44,7 @@ class Converted(Result):
     @property
     def data(self) -> dict[str, Json]:
         """The scene as a mapping, and the parts left out."""
-        return {"scene": self.scene.to_dict(), "left": list(self.left)}
+        return {"scene": self.scene.to_dict(), "left": list(map(str, self.left))}
 
     @cached_property
     def table(self) -> Table:
@@ -105,7 +105,7 @@ def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[st
         bodies = Bodies(given.question.title) if ending == ".toml" else _bodies(given)
     text = toml_text(scene.to_dict()) if ending == ".toml" else write_bodies(bodies, ending)
     _all_kept(bodies, lossy)
-    made = Converted(scene, ending, text, tuple(map(str, (*bodies.lost, *bodies.left))))
+    made = Converted(scene, ending, text, (*bodies.lost, *bodies.left))
     if target is not None:
         write_files(target.parent, {target.name: text.encode()})
     return made

@@ -21,7 +21,7 @@ from graphkin.board.answers import answer, language_of
 from graphkin.board.shelf import Shelf
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.scene.scene import SceneLike, library, library_text, toml_text, written
-from graphkin.words import LANGUAGES, Phrase, say
+from graphkin.words import LANGUAGES, Phrase, from_others, say
 
 if TYPE_CHECKING:
     import socket
@@ -195,7 +195,8 @@ def serve(shelf: Shelf, port: int = 0, ready: Callable[[Address], None] | None =
         listening.bind(("127.0.0.1", port))
     except (OSError, OverflowError) as error:
         listening.close()
-        raise CallError.of("port", "cannot be used", "give another one or none", port=port, error=error) from None
+        raise CallError.of("port", "cannot be used", "give another one or none", port=port,
+                           error=from_others(error)) from None
     address = Address.new(listening.getsockname()[1])
     gc.set_threshold(10_000, 10, 10)  # a command that ends at once looks for garbage next to never; this one stays
     try:

@@ -104,7 +104,7 @@ class Shelf:
             with whole_file(path) as out:
                 out.write(text.encode())
         except OSError as error:
-            raise CallError.of(name, "cannot be written", reason=from_others(error.strerror or str(error))) from None
+            raise CallError.of(name, "cannot be written", reason=from_others(error)) from None
         return mark_of(text)
 
     def changed(self, name: str, mark: str) -> str | None:

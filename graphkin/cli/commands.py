@@ -150,7 +150,7 @@ def main(interrupted: Callable[[int, FrameType | None], object] | None = None) -
         sys.stdout.flush()
     except Unwritable as error:
         with suppress(OSError):
-            complain(Phrase("what is printed cannot be written", reason=from_others(error.strerror or str(error))))
+            complain(Phrase("what is printed cannot be written", reason=from_others(error)))
         status = 2
     except KeyboardInterrupt:  # a second one, while the first was answered, or at the very end
         status = INTERRUPTED

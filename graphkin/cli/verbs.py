@@ -485,8 +485,7 @@ def _hand_out(given: Given, text: str, path: Path | None) -> None:
             with whole_file(path) as out:
                 out.write(text.encode())
         except OSError as error:
-            reason = from_others(error.strerror or str(error))
-            raise CallError.of(str(path), "cannot be written", reason=reason) from None
+            raise CallError.of(str(path), "cannot be written", reason=from_others(error)) from None
     if given.json:
         print_json({"text": text} if path is None else {"files": [str(path)]})
     elif path is None and not given.quiet:
@@ -516,7 +515,7 @@ def explain(given: Given) -> None:
         raise typer.Exit(explained.exit_code)
 
 
-@command("source", "out of convert", "lossy", "json", "quiet")
+@command("source", "out of convert", "lossy", "lang of sheets", "json", "quiet")
 def convert(given: Given) -> None:
     """Make a scene of another program's mechanism, or give a scene to another program."""
     if given.out is not None:
@@ -528,8 +527,7 @@ def convert(given: Given) -> None:
         typer.echo(made.text, nl=False)
     elif not given.quiet:
         print_paths([given.out])
-    for thing in made.left:
-        tell(f"graphkin: not carried over: {thing}", err=True)
+    complain(*(Phrase("not carried over", part=part) for part in made.left))
 
 
 @command("scene of open", "port", "browser")

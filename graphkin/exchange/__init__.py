@@ -42,8 +42,7 @@ def read_bodies(source: str) -> Bodies:
         with opened(path) as stream:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise CallError.of(str(path)[:200], "cannot be read", reason=from_others(reason)) from None
+        raise CallError.of(str(path)[:200], "cannot be read", reason=from_others(error)) from None
     if len(data) > LARGEST:
         raise CallError.of(str(path), "is larger than 20 mb", "a mechanism is smaller")
     if kind == ".ggb":

@@ -28,7 +28,7 @@ from graphkin.errors import CallError
 from graphkin.exchange.bodies import FRAME, Bodies
 from graphkin.files import Tables
 from graphkin.plane import cross_arcs
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase, Wording, from_others
 
 STEP = math.tau / 360
 """rad: what a driver of pylinkage turns in a step, where nothing is said; a step is taken for a second."""
@@ -110,7 +110,7 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
                 if element.tag == "element" and element.get("type") == "point":
                     made.made.point(element.get("label", ""), _place(element))
     except DAMAGED as error:
-        raise CallError.of(title, "is no file of geogebra", "save it as ggb", error=error) from None
+        raise CallError.of(title, "is no file of geogebra", "save it as ggb", error=from_others(error)) from None
     circles: dict[str, str] = {}
     lines: dict[str, tuple[str, str]] = {}
     for command in (element for element in elements if element.tag == "command"):

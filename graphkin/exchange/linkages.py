@@ -20,7 +20,7 @@ from graphkin.errors import CallError
 from graphkin.exchange.bodies import FRAME, Bodies, BodySlide, number
 from graphkin.exchange.constructions import STEP, construct_linkage
 from graphkin.files import OwnTables, Tables
-from graphkin.words import Phrase
+from graphkin.words import Phrase, from_others
 
 RPM = 15.0
 """Where a motor of Linkage says no speed."""
@@ -34,7 +34,7 @@ def read_linkage2(text: str, title: str) -> Bodies:
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
-        raise CallError.of(title, "is not xml", "save it from linkage anew", error=error) from None
+        raise CallError.of(title, "is not xml", "save it from linkage anew", error=from_others(error)) from None
     if root.tag != "linkage2":
         raise CallError.of(title, "begins with", "a file of linkage begins with linkage2", tag=root.tag)
     made = Bodies(title)
@@ -181,7 +181,7 @@ def read_pylinkage(text: str, title: str) -> Bodies:
     try:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise CallError.of(title, "is not json", "save it from pylinkage anew", error=error) from None
+        raise CallError.of(title, "is not json", "save it from pylinkage anew", error=from_others(error)) from None
     if not isinstance(data, dict) or not isinstance(data.get("joints"), list):
         raise CallError.of(title, "has no list of joints", "a file of pylinkage has joints")
     made = Bodies(str(data.get("name") or title)[:200])

@@ -38,7 +38,7 @@ from graphkin.solver.cams import study_cam
 from graphkin.solver.path.named_positions import standing
 from graphkin.solver.values import exact_values
 from graphkin.structure import Dyad, LargerGroup, analyse
-from graphkin.words import Phrase, Wording, as_data, from_data
+from graphkin.words import Phrase, Wording, as_data, from_data, from_others
 
 LEAST_READING = 10.0  # mm on paper
 AMPLE = 0.8  # of a tolerance, to which errors that act together may still add
@@ -199,7 +199,7 @@ def examined(
     except GraphkinError as error:
         raise Unfit(error.problems[0].sentence) from None
     except ArithmeticError as error:
-        raise Unfit(Phrase("unfit out of range", error=str(error))) from None
+        raise Unfit(Phrase("unfit out of range", error=from_others(error))) from None
     if strict:  # what errors do together only adds to it
         unread = {s for s, _ in answers if any(_unread(sheet, (s,)))} if chosen else idle
         read = tuple((s, value) for s, value in answers if (value or not chosen) and s not in unread)  # what moves

@@ -213,7 +213,7 @@ def _read(raw: Tables, name: str) -> Design:
     if "links" in given:
         found = Phrase("unknown table") if isinstance(given.pop("links"), dict) else Phrase("unknown key")
         problems.append(Problem("links", found, "this is a scene a design file has"))
-    if given.get("design") is None:
+    if not given.get("design"):
         problems.append(Problem("design", "is missing", "a design file has a table design with"))
     design, wrong, _ = DESIGN.checked(given)
     task = _task(design.design, problems) if design.design else None

@@ -76,9 +76,8 @@ def _picture(where: str, file: str) -> PlacedPicture | Problem:
         with opened(file) as stream:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
         return Problem(where, "cannot be read of shown and reason", "name a png or jpeg beside the scene", shown=shown,
-                       reason=from_others(reason))
+                       reason=from_others(error))
     if len(data) > LARGEST:
         return Problem(where, "is larger than mb of shown and largest", "save it smaller", shown=shown,
                        largest=LARGEST // 1_000_000)

@@ -100,7 +100,8 @@ def parsed(text: str) -> OwnTables:
         if "int_max_str_digits" in str(error):
             raise SceneError.of(Phrase("the file"), "is not toml a number of thousands of",
                                 "no number of a scene may exceed 1e") from None
-        raise SceneError.of(Phrase("the file"), "is not toml of message", "see https toml.io", message=error) from None
+        raise SceneError.of(Phrase("the file"), "is not toml of message", "see https toml.io",
+                            message=from_others(error)) from None
 
 
 def _depth(text: str) -> int:
@@ -131,8 +132,7 @@ def file_text(path: str) -> str:
     except FileNotFoundError:
         raise SceneError(_no_scene(path, shown)) from None
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise SceneError.of(shown or Phrase("the scene"), "cannot be read", reason=from_others(reason)) from None
+        raise SceneError.of(shown or Phrase("the scene"), "cannot be read", reason=from_others(error)) from None
     if len(data) > LARGEST_FILE:
         raise SceneError(_too_large())
     try:
@@ -492,8 +492,7 @@ class Scene(SceneTables):
             with whole_file(target) as out:
                 out.write(toml_text(self.to_dict()).encode())
         except OSError as error:
-            raise CallError.of(str(path), "cannot be written",
-                               reason=from_others(error.strerror or str(error))) from None
+            raise CallError.of(str(path), "cannot be written", reason=from_others(error)) from None
         return target
 
     def __hash__(self) -> int:

@@ -106,18 +106,18 @@ class Kind:
 KINDS = {
     kind.name: kind
     for kind in (
-        Kind("v", "velocity", "points", "motion", "v_B, v_B@3 or v_C/B", True, of_pose=True, of_pairs=True),
-        Kind("a", "acceleration", "points", "motion", "a_B, a_B@3 or a_C/B", True, of_pose=True, of_pairs=True),
-        Kind("an", "acceleration", "points", "motion", "an_B or an_C/B", True),
-        Kind("at", "acceleration", "points", "motion", "at_B or at_C/B", True),
+        Kind("v", "velocity", "points", "motion", "v_B, v_B@3, v_C/B", True, of_pose=True, of_pairs=True),
+        Kind("a", "acceleration", "points", "motion", "a_B, a_B@3, a_C/B", True, of_pose=True, of_pairs=True),
+        Kind("an", "acceleration", "points", "motion", "an_B, an_C/B", True),
+        Kind("at", "acceleration", "points", "motion", "at_B, at_C/B", True),
         Kind("ak", "acceleration", "coincident", "motion", "ak_B@3/B@2", True),
         Kind("ar", "acceleration", "coincident", "motion", "ar_B@3/B@2", True),
         Kind("omega", "angular velocity", "link", "motion", "omega_3", of_pose=True, letter="ω"),
         Kind("alpha", "angular acceleration", "link", "motion", "alpha_3", of_pose=True, letter="α"),
         Kind("x", "length", "point", "position", "x_D"),
         Kind("y", "length", "point", "position", "y_D"),
-        Kind("theta", "angle", "link of link", "position", "theta_3 or theta_3/2", of_pose=True, letter="θ"),
-        Kind("d", "length", "two points", "position", "d_B/C or d_P12/A", letter="l", distance=True),
+        Kind("theta", "angle", "link of link", "position", "theta_3, theta_3/2", of_pose=True, letter="θ"),
+        Kind("d", "length", "two points", "position", "d_B/C, d_P12/A", letter="l", distance=True),
         Kind("s", "length", "pair", "position", "s_2/3", of_pose=True),
         Kind("gamma", "angle", "links", "position", "gamma_2-3", letter="γ", acute=True),
         Kind("pressure", "angle", "link", "position", "pressure_5", letter="α", mark="p", acute=True),
@@ -125,14 +125,14 @@ KINDS = {
         Kind("swing", "angle", "link", "turn", "swing_3", letter="ψ"),
         Kind("K", "number", "link of link", "turn", "K_5/6"),
         Kind("theta_lag", "angle", "link of link", "turn", "theta_lag_5/6", letter="θ", mark="K"),
-        Kind("F", "force", "link or joint", "force", "F_5/6, F_5/6@C or F_2", True),
+        Kind("F", "force", "link or joint", "force", "F_5/6, F_5/6@C, F_2", True),
         Kind("Fi", "force", "of link", "force", "Fi_6", True),
         Kind("G", "force", "of link", "force", "G_6", True),
         Kind("P", "force", "load", "force", "P_cut", True),
-        Kind("M", "moment", "link or joint", "force", "M_2 or M_6/1"),
+        Kind("M", "moment", "link or joint", "force", "M_2, M_6/1"),
         Kind("Mi", "moment", "of link", "force", "Mi_4"),
         Kind("h", "length", "of link", "force", "h_4"),
-        Kind("arm", "velocity", "force", "force", "arm_P_cut or arm_G_6"),
+        Kind("arm", "velocity", "force", "force", "arm_P_cut, arm_G_6"),
         Kind("excess", "work", "excess work", "cycle", "excess_W"),
         Kind("J", "inertia", "flywheel", "cycle", "J_F"),
     )
@@ -371,7 +371,7 @@ _MISSING = {
 
 def no_quantity(text: str) -> Phrase:
     """The sentence on a name that names no quantity."""
-    known = ", ".join(re.sub(" or .*|,.*", "", kind.example) for kind in KINDS.values())
+    known = ", ".join(kind.example.split(",")[0] for kind in KINDS.values())
     return Phrase("is no quantity known are", text=text, names=known)
 
 

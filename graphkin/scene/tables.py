@@ -662,6 +662,7 @@ _NOUNS = {
 _KINDS = {
     "string_type": Phrase("a text is wanted"),
     "float_type": Phrase("a number is wanted"),
+    "int_type": Phrase("a whole number is wanted"),
     "bool_type": Phrase("true or false is wanted"),
     "list_type": Phrase("a list is wanted"),
     "dict_type": Phrase("a table is wanted"),
@@ -700,8 +701,8 @@ def shown(value: object) -> Wording:
     if isinstance(value, int):
         return str(value) if abs(value) < 10**20 else Phrase("a number of too many digits")
     if isinstance(value, list):
-        inner = ", ".join(str(shown(v)) for v in value[:4]) + (", ..." if len(value) > 4 else "")
-        return f"[{inner}]"
+        inner = [said if isinstance(said := shown(item), str) else "..." for item in value[:4]]
+        return f"[{', '.join(inner + ['...'] * (len(value) > 4))}]"
     if isinstance(value, dict):
         return Phrase("a table" if value else "an empty table")
     return str(value)[:60] if value is not None else Phrase("nothing")
@@ -731,7 +732,7 @@ def as_sentence(clause: str) -> str:
 
 def _written_path(loc: KeyPath) -> KeyPath:
     """A place as the file has it, without pydantic's tags."""
-    return tuple(part for part in loc if not (isinstance(part, str) and part.startswith("<")) and part != "[key]")
+    return tuple(part for part in loc if not str(part).startswith(("<", "[key]", "constrained-")))
 
 
 def _name_rule(ctx: Tables) -> Wording:

@@ -413,5 +413,5 @@ def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: R
         reading.say(f"{where}.{len(pieces)}", "ends at deg", "the last piece ends at 360", start=f"{start:g}")
     if len(reading.problems) == before and low != 0.0:
         reading.say(where, "does not come back a turn leaves the", "all that rises falls again",
-                    least=f"{abs(low):.9g}", way="up" if low > 0 else "down")
+                    lift=f"{low:.9g}")
     return FollowerLaw(tuple(lifts)) if len(reading.problems) == before else None

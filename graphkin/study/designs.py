@@ -314,7 +314,7 @@ def _read(source: Tables, values: Mapping[str, float]) -> Mechanism:
         return mechanism_of(applied(source, tuple(values), tuple(values.values())))
     except SceneError as error:
         what = f"designs {', '.join(values)}"
-        raise CallError.of(what, "changed by itself the scene no longer fits", error=error) from None
+        raise CallError.of(what, "changed by itself the scene no longer fits", error=error.reason) from None
 
 
 def _laws(

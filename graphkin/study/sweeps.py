@@ -578,7 +578,7 @@ def write_tables(
             return *_merged(sweep, points, folder, parquet), damaged
     except OSError as error:
         raise CallError.of(str(folder), "cannot be written", "give another folder with o",
-                           reason=from_others(error.strerror or str(error))) from None
+                           reason=from_others(error)) from None
 
 
 def _merged(

@@ -376,13 +376,16 @@ def alternatives(names: Iterable[str]) -> Wording:
     return said
 
 
-def from_others(sentence: Wording) -> Wording:
-    """A sentence of another program (the operating system, the TOML parser, the command line), known by its words in
-    the table of English; an unknown sentence stays as it is.
+def from_others(sentence: Wording | Exception) -> Wording:
+    """A sentence of another program (the operating system, the TOML parser, the command line), or that of its error,
+    known by its words in the table of English; an unknown sentence stays as it is.
 
-    >>> say(from_others("No such command 'drw'."), "zh")
-    '没有命令“drw”'
+    >>> say(from_others("No such command 'drw'."), "zh"), say(from_others(OSError(13, "Permission denied")), "zh")
+    ('没有命令“drw”', '没有权限')
     """
+    if isinstance(sentence, Exception):
+        text = str(sentence.args[0] if isinstance(sentence, KeyError) else sentence)
+        sentence = getattr(sentence, "strerror", None) or text
     if not isinstance(sentence, str):
         return sentence
     for key, pattern in _sentences_of_others():

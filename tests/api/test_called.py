@@ -25,7 +25,7 @@ def test_one_symbol_may_stand_without_a_list():
     [
         (
             lambda: graphkin.check(SIXBAR, at="50"),
-            'position "50": the scene has no [positions] table; give a value of driver 1: --at 75',
+            'position 50: the scene has no [positions] table; give a value of driver 1: --at 75',
         ),
         (lambda: graphkin.check(SIXBAR, at={"1": float("nan")}), "at 1: nan is no driver value"),
         (lambda: graphkin.solve(SIXBAR, sweep=2.5), "sweep: 2.5 positions; give a whole number"),
