@@ -26,7 +26,7 @@ from graphkin.construction.board.steps import (
 )
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, languages, sense_of, word
+from graphkin.words import Phrase, sense_of, word
 from graphkin.words.symbols import RichText, rate, spaced
 from graphkin.words.written import pointing
 
@@ -73,15 +73,15 @@ def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[Writte
             if step.diagram not in {one.diagram for one in lines if isinstance(one, Equation)}:
                 lines += _shared_with_drivers(sheet, equation)
             if step.reason == "seen from":  # what the mark of vectors means that are seen from a held link
-                lines.append(account.say(Phrase("written seen", link=step.held), languages(language)[0]))
+                lines += account.in_each(Phrase("written seen", link=step.held), language)
             lines.append(equation)
             lines += _products(sheet, equation, letters)
-        for line in telling(account, step).written(language):
-            before = lines[-1] if lines else None
-            if shared and step.reason in SHARE_A_LINE and isinstance(before, RichText):
-                lines[-1] = before + ";  " + line
-            else:
-                lines.append(RichText(line))
+        new = [RichText(line) for line in telling(account, step).written(language)]
+        before = [line for line in lines[len(lines) - len(new) :] if isinstance(line, RichText)]
+        if shared and step.reason in SHARE_A_LINE and len(before) == len(new):
+            del lines[len(lines) - len(new) :]
+            new = [one + ";  " + line for one, line in zip(before, new, strict=True)]
+        lines += new
         shared = step.reason in SHARE_A_LINE
     return lines
 

@@ -300,7 +300,7 @@ class InPolygon(Telling):
             if self.account.letters.convention == "us" and vector in self.sheet.vectors[step.diagram]:
                 similar = self._side_by_side(" : ", "AC", "AB") if on_line else self._side_by_side("△", "", "ABC")
                 named = Phrase("written image named", vector=vector, link=step.link, points=Neutral(similar))
-                yield bound(self.account.say(named, languages(language)[0]))
+                yield from map(bound, self.account.in_each(named, language))
         elif on_line:
             image, bar = (self._side_by_side(" : ", *names) for names in (("ac", "ab"), ("AC", "AB")))
             yield bound(image + " = " + bar)

@@ -196,6 +196,10 @@ class Account:
         """A phrase with its symbols."""
         return rich_text(phrase, language, lambda thing: self._show(thing, language))
 
+    def in_each(self, phrase: Phrase, language: str) -> Iterable[RichText]:
+        """A phrase with its symbols in each language of a sheet, once where they say it alike."""
+        return dict.fromkeys(self.say(phrase, each) for each in languages(language))
+
     def _show(self, thing: object, language: str) -> Words:
         if isinstance(thing, str | RichText):
             return thing
@@ -304,7 +308,7 @@ class Telling:
     def written(self, language: str) -> Iterator[Words]:
         """The lines to repeat it."""
         for line in self.lines[self.step.reason](self, language) if self.step.reason in self.lines else ():
-            yield self.account.say(line, languages(language)[0]) if isinstance(line, Phrase) else line
+            yield from self.account.in_each(line, language) if isinstance(line, Phrase) else (line,)
 
 
 def whole_sentence(text: Words, language: str) -> RichText:

@@ -87,3 +87,14 @@ def test_a_unit_that_both_languages_write_alike_stands_once():
     figure = draw("sixbar-420rpm", language="both", figures=["mechanism"]).figures["mechanism"]
     assert any("dimensions in / 尺寸单位 m" in text for text in texts(figure))
 
+
+
+@pytest.mark.parametrize(("name", "english", "chinese"), [
+    ("triad-slider", "Sonlink4:wherethelinesofthelegsat", "构件4上的S：C、E处两支链延长线"),
+    ("engine-gas-force", "VS3bytheimageoflink3", "由构件3的影像得VS3"),
+    ("gears-epicyclic", "goesonoverleaf转下页", "转下页"),
+])  # fmt: skip
+def test_the_words_beside_the_equations_stand_in_both_languages(name, english, chinese):
+    shown = texts(draw(name, language="both", figures=("sheet",)).figures["sheet"])
+    said = re.sub(r"\s", "", "".join(shown))
+    assert [True, True] == [english in said, chinese in said]

@@ -49,7 +49,7 @@ from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, wi
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, set_lines, table_rows
 from graphkin.drawing.text import cut_off, fitted, plain, runs_width, wrapped
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.words import Phrase, about, languages, say, word
+from graphkin.words import Phrase, about, languages, say
 from graphkin.words.symbols import RichText, Words, spaced
 
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
@@ -112,7 +112,7 @@ def sheet_page(page: FigurePage, report: Report | None = None) -> Drawing:
         for drawn_page in (figure, *figure.further) if figure is not None else ():
             further += (_as_page(sheet, drawn_page, plan, len(further) + 2),)
     if further:
-        pieces.append(_below(plan.page, plain(word("goes on", languages(page.language)[0]), 2.6), "end"))
+        pieces.append(_below(plan.page, plain(page.term("goes on"), 2.6), "end"))
     made = _drawn_page(page, plan.width, plan.height, pieces, "")
     return replace(made, desc=describe(sheet, shown, page.language), further=further)
 
