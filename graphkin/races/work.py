@@ -165,13 +165,15 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
 
     Raises
     ------
-    CallError : no link moves, or a group larger than a dyad, which has no closed form
+    CallError : no link moves, or one by a cam or by rolling; or a group larger than a dyad, which has no closed form
     Unsolvable : as for ``solver.solve``
     """
     structure = solver.structure_of(scene)
     larger = next((group for group in structure.groups if not isinstance(group, Dyad)), None)
     if larger is not None:
         raise CallError.of(larger.named, "have no closed form", "solve such a mechanism with solve")
+    if any(element.driver not in structure.scene.drivers for element in structure.driven):
+        raise CallError.of(scene.name or "scene", "moves by a cam or by rolling", "solve such a mechanism with solve")
     outputs = compared_points(structure)
     if not outputs or not any(d.values[1] for d in scene.drivers):
         raise CallError.of(scene.name or "scene", "nothing moves that could be looked at", "give the driver a rate")

@@ -139,6 +139,12 @@ def test_a_mechanism_without_closed_form_is_refused_by_name() -> None:
         graphkin.speed_accuracy("double-butterfly")
 
 
+@pytest.mark.parametrize("name", ["cam-flat-face", "gears-epicyclic", "wheel-on-rail"])
+def test_a_mechanism_with_a_cam_or_with_rolling_links_is_refused(name: str) -> None:
+    with pytest.raises(graphkin.CallError, match=rf"^{name}: moves by a cam or by rolling"):
+        graphkin.speed_accuracy(name)
+
+
 def test_without_mpmath_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mpmath", None)
     with pytest.raises(graphkin.CallError, match=r"graphkin\[study\]"):
