@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import fields, replace
-from typing import get_args
+from typing import get_args, get_type_hints
 
 import pytest
 
@@ -15,18 +16,19 @@ from graphkin.construction.board.steps import (
     Curve,
     Direction,
     EndStep,
+    OnPaper,
     PlaceStep,
     RateStep,
     RateTrial,
     Ray,
     Reason,
     Step,
-    Stroke,
     Superposed,
     Term,
     VectorStep,
 )
 from graphkin.construction.tasks import TaskStep
+from graphkin.plane import Pose
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import area, say
@@ -86,10 +88,26 @@ def test_places_of_a_stroke_grow_and_its_direction_stays() -> None:
     assert Curve((2j, 4j), (6j,), "B") == Curve((1j, 2j), (3j,), "B").scaled(2.0)
 
 
-@pytest.mark.parametrize("stroke", get_args(Stroke))
-def test_a_place_of_a_stroke_is_one_that_a_scale_changes(stroke: type) -> None:
-    places = {f.name for f in fields(stroke) if "complex" in str(f.type) or f.type == "float"}
-    assert {"along", "value"} >= places - LENGTHS
+def every(kind: type) -> list[type]:
+    return [kind, *(deeper for made in kind.__subclasses__() for deeper in every(made))]
+
+
+SAME_AT_ALL_SCALES = {
+    "Term.along", "Ray.along", "Angle.value", "PlaceStep.value", "TaskStep.angles", "TaskStep.K", "RateStep.value",
+    "RateStep.other", "RateStep.per_mm", "TrialPositions.instead", "TrialPositions.trials", "TrialPositions.divided",
+    "TrialPositions.parts", "RateTrial.assumed", "Superposed.found", "Remark.size", "Rate.value", "Rate.arm",
+    "LimitPosition.value", "LimitPosition.angle", "LimitPosition.rest", "CamStation.degree", "CamStation.way",
+    "CamStation.normal", "CamStation.lift",
+}  # fmt: skip
+DRAWN_ANEW = "Force", "Inertia", "MomentStep"  # at other scales
+
+
+@pytest.mark.parametrize("kind", [k for k in every(OnPaper) if not k.__name__.startswith(DRAWN_ANEW)])
+def test_whatever_stands_on_paper_has_no_number_or_place_of_which_a_scale_does_not_know(kind: type) -> None:
+    on_paper = "|".join(["float", "complex", *(f"[.]{of.__name__}\\b" for of in (*every(OnPaper), Pose))])
+    kinds = get_type_hints(kind)
+    own = {name for name in vars(kind).get("__annotations__", {}) if re.search(on_paper, str(kinds[name]))}
+    assert set() == {f"{kind.__name__}.{name}" for name in own - LENGTHS} - SAME_AT_ALL_SCALES
 
 
 @pytest.mark.parametrize("name", library()[::6])

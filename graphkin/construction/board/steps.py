@@ -152,8 +152,7 @@ Part = Literal["", "t", "n"]
 Value = TypeVar("Value")
 LENGTHS = {
     "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "radii", "apart",
-    "origin", "poses", "low", "high", "less", "span", "strokes", "terms", "divisions", "line", "base",
-    "point", "contact",
+    "poses", "less", "span", "strokes", "terms", "divisions", "line", "base", "point", "contact",
 }  # fmt: skip
 """Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
 
