@@ -32,7 +32,7 @@ from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
-from graphkin.drawing.figures.train import train_pages
+from graphkin.drawing.figures.train import PLAN_WORDS, train_pages
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers import pictures
 from graphkin.papers.blocks import (
@@ -475,7 +475,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
         if stage.diagram not in layers:
             layers[stage.diagram] = pictures.parts(lesson, stage.diagram)
         opening = lead if stage is lesson.stages[0] else ()
-        if stage.equation is None and all(step.plan for step in stage.steps):  # drawn on the plans of trains alone
+        if stage.of_plans:
             yield Together(tuple(_plan_blocks(lesson, stage.diagram, shown, count, stage)))
             count += len(shown)
             continue
@@ -501,7 +501,7 @@ def _plan_blocks(
     lesson: Lesson, order: str, pages: Iterable[Drawing], count: int, stage: Stage | None = None
 ) -> Iterator[Heading | StepItem | Picture]:
     """The pages of velocity plans with their steps, none where no part of them moves, after ``count`` figures."""
-    title = said("plan" if order == "velocity" else "plan accelerations", lesson.language)
+    title = said(PLAN_WORDS[order], lesson.language)
     yield Heading(title)
     if stage is not None:
         yield from step_items(lesson, stage, len(stage.steps) > 1)
@@ -580,10 +580,12 @@ def results_blocks(lesson: Lesson) -> Iterator[Block]:
 
 
 def stage_title(lesson: Lesson, stage: Stage) -> Said:
-    """The subject of a stage: the position, an equation and its kind, or the other asked vectors."""
+    """The subject of a stage: the position, an equation and its kind, a velocity plan, or the other asked vectors."""
     equation = stage.equation
     if stage.diagram == "mechanism":
         return said("the position", lesson.language)
+    if stage.of_plans:
+        return said(PLAN_WORDS[stage.diagram], lesson.language)
     if equation is None:
         return said("further vectors", lesson.language)
     numbered_one = Phrase("equation numbered", number=equation.number)

@@ -57,6 +57,11 @@ class Stage:
     def last(self) -> int:
         return self.steps[-1].number
 
+    @property
+    def of_plans(self) -> bool:
+        """Whether it is drawn on the velocity plans of trains alone."""
+        return self.equation is None and all(step.plan for step in self.steps)
+
 
 def stages(sheet: Sheet) -> tuple[Stage, ...]:
     """The steps of a sheet in groups: one for the position, one for each equation with what is measured after it."""

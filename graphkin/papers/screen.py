@@ -30,7 +30,7 @@ from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.centres import background, centre_marks, near_box
 from graphkin.drawing.figures.constructions import cam_pictures, scaled_cam
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
-from graphkin.drawing.figures.train import train_pages
+from graphkin.drawing.figures.train import PLAN_WORDS, train_pages
 from graphkin.drawing.ink.primitives import Group, Primitive, on_page
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
@@ -289,7 +289,7 @@ def _plans(lesson: Lesson) -> Iterator[Figure]:
         last, bare = max((step.number for step in sheet.steps if step.plan == plan), default=0), bare_picture(page)
         drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last}",)),)) if last else bare
         order = sheet.trains[plan - 1].order
-        title = said("plan" if order == "velocity" else "plan accelerations", language)
+        title = said(PLAN_WORDS[order], language)
         yield _figure(f"plan-{order}", drawn, _caption(title))
 
 

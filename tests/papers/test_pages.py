@@ -107,6 +107,13 @@ def test_a_velocity_plan_and_the_inversion_of_a_cam_are_figures_of_the_page():
     assert not any("step-" in f["svg"] for p in cam for f in p["figures"][-2:])
 
 
+def test_steps_on_a_velocity_plan_stand_under_its_name():
+    page = _data(_page(handout("gears-epicyclic", positions=1, formats=("html",))))
+    plans = {s["e"] for s in page["positions"][0]["steps"] if "lan of " in s["text"] or "Velocity plan" in s["text"]}
+    titles = [re.sub("<.*?>", "", page["stages"][e]["title"]) for e in sorted(plans)]
+    assert ["Velocity plan", "Plan of tangential accelerations"] == titles
+
+
 @pytest.fixture(scope="module")
 def found_later():
     return handout(FOUND_LATER, positions=1, formats=("html",))

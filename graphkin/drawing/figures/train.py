@@ -36,6 +36,8 @@ SCHEME = 68.0
 PLAN = 78.0
 """mm from the left margin to where velocities may begin."""
 TABLE = 62.0  # mm
+PLAN_WORDS = {"velocity": "plan", "acceleration": "plan accelerations"}
+"""The name of the plan of each order."""
 SHORT = 0.3
 
 
@@ -54,8 +56,7 @@ def train_pages(page: FigurePage) -> dict[int, Drawing]:
 
 
 def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
-    sheet, velocity = page.sheet, plan.order == "velocity"
-    name = "plan" if velocity else "plan accelerations"
+    sheet, velocity, name = page.sheet, plan.order == "velocity", PLAN_WORDS[plan.order]
     why = [Phrase("plan reason" if velocity else "plan reason accelerations", pole=_pole(plan))]
     why += [Phrase("plan relative", point=line.still) for line in plan.on if not line.in_frame]
     rates = _rate_scale(sheet, plan)
