@@ -9,7 +9,7 @@ from typing import Any, get_args
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Json
 from graphkin.scene.scene import LARGEST_FILE, parsed
-from graphkin.scene.scene_tables import Convention
+from graphkin.scene.scene_tables import SCENE, Convention
 from graphkin.scene.tables import item_of
 from graphkin.words import LANGUAGES, Phrase, Wording
 
@@ -58,9 +58,9 @@ def _put(document: Any, key: str, value: Any) -> None:
             if part not in place:
                 if value is None:
                     return
-                short = depth > 0 and (parts[0] not in _HOLDERS or depth > 1)
-                holder = depth == 0 and part in _HOLDERS
-                place[part] = tomlkit.inline_table() if short else tomlkit.table(is_super_table=holder)
+                named = SCENE.holds_tables(parts[0])
+                short = depth > 1 or (depth == 1 and not named)
+                place[part] = tomlkit.inline_table() if short else tomlkit.table(is_super_table=named and not depth)
             place = place[part]
         else:
             raise CallError.of(key, "has nothing inside", names='.'.join(parts[:depth]))
@@ -104,9 +104,6 @@ def _is_inline(place: Any) -> bool:
     from tomlkit.items import InlineTable
 
     return isinstance(place, InlineTable)
-
-
-_HOLDERS = ("links", "masses", "loads", "springs")  # tables of tables, each with a head of its own
 
 
 def _index(place: list[Any], part: str, key: str) -> int:

@@ -218,7 +218,7 @@ def toml_text(mapping: Tables) -> str:
     text = tomlkit.document()
     for key in sorted(mapping, key=lambda key: _is_table(mapping[key])):  # tables come after what stands alone
         given = mapping[key]
-        named = isinstance(given, Mapping) and SCENE.table_at((key, "")) is not None
+        named = isinstance(given, Mapping) and SCENE.holds_tables(key)
         if named and all(isinstance(item, Mapping) for item in given.values()):
             made = tomlkit.table(is_super_table=True)
             for name, item in given.items():

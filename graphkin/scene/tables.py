@@ -474,6 +474,15 @@ class Form(Generic[AnyTable]):
         """
         return _within(self.whole, tuple(loc))
 
+    def holds_tables(self, key: str) -> bool:
+        """Whether the entries of a table are tables by name, each with a head of its own in the file.
+
+        >>> from graphkin.scene.scene_tables import SCENE
+        >>> SCENE.holds_tables("masses"), SCENE.holds_tables("frame")
+        (True, False)
+        """
+        return self.table_at((key, "")) is not None
+
     def keys_at(self, loc: Sequence[str | int]) -> dict[str, Wording]:
         """The keys that may stand in the table at a place, with the explanation of each."""
         table = self.table_at(loc)

@@ -31,6 +31,13 @@ def told(question: str, **message: object) -> dict:
     return found
 
 
+@pytest.mark.parametrize("table", ["links", "pins", "contacts", "gears", "cams", "masses", "loads", "springs"])
+def test_a_table_that_a_text_does_not_have_yet_gets_a_head_of_its_own(table: str) -> None:
+    made = changed('title = "A"\n', {f"{table}.K.of": "2"})
+    assert f'title = "A"\n\n[{table}.K]\nof = "2"\n' == made
+
+
+
 def test_every_change_keeps_the_comments_and_the_rest_of_the_text() -> None:
     made = changed(SIXBAR, {"links.2.length": 0.35, "frame.points.D.x": 0.41})
     assert SIXBAR.replace("length = 0.34", "length = 0.35").replace("D = [0.4,", "D = [0.41,") == made
