@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from graphkin.cli.options import Given
 
 
-def tell(text: str, err: bool = False) -> None:
+def show(text: str, err: bool = False) -> None:
     """Print lines of text, on stderr if they are no result; control characters are written out."""
     typer.echo("\n".join(map(printable, text.split("\n"))), err=err)
 
@@ -44,7 +44,7 @@ def complain(*found: Problem | Wording) -> None:
     for language in asked_languages(sys.argv[1:]):
         for fault in found:
             text = fault.text(language) if isinstance(fault, Problem) else say(fault, language)
-            tell(f"graphkin: {text}", err=True)
+            show(f"graphkin: {text}", err=True)
 
 
 def print_json(data: object) -> None:
@@ -53,7 +53,7 @@ def print_json(data: object) -> None:
 
 def print_paths(paths: Iterable[Path]) -> None:
     """One path a line."""
-    tell("\n".join(str(path) for path in paths))
+    show("\n".join(str(path) for path in paths))
 
 
 def print_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tuple[int, ...] = ()) -> None:
@@ -132,7 +132,7 @@ def finish(given: Given, result: Result, paths: Iterable[Path] = (), files: bool
         raise typer.Exit(1)
 
 
-def tell_unused(heads: Sequence[str]) -> None:
+def show_unused(heads: Sequence[str]) -> None:
     """Name the unused columns of a table."""
     if heads:
         complain(Phrase("columns left alone", names=', '.join(heads)[:300]))

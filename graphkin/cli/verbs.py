@@ -25,8 +25,8 @@ from graphkin.cli.output import (
     print_table,
     progress_bar,
     short_bar,
-    tell,
-    tell_unused,
+    show,
+    show_unused,
 )
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.words import Phrase, class_of, from_others, languages, say, word
@@ -84,14 +84,14 @@ def _print_readings(checked: Checked, language: str) -> None:
     heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact", "unit")]
     print_table([*heads, ""], rows, right=(1, 2, 3))
     for line in (*lever_lines(checked, language), *contact_lines(checked, language)):
-        tell(line)
+        show(line)
     for note in checked.sheet.notes:
-        tell(plain_said(note, language))
+        show(plain_said(note, language))
     if checked.advice:
-        tell(plain_said(checked.advice, language))
+        show(plain_said(checked.advice, language))
     for said in passed_words(checked.mechanism, checked.passed):
-        tell(say(said, language))
-    tell(verdict(checked, language))
+        show(say(said, language))
+    show(verdict(checked, language))
 
 
 @command(
@@ -129,13 +129,13 @@ def audit(given: Given) -> None:
         if audited.rows or not audited.scans:
             print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 4))
         if audited.scans:
-            tell("\n".join(audited.scan_lines))
+            show("\n".join(audited.scan_lines))
         for summary in (audited.students, audited.matrix) if audited.is_class else ():
-            tell("")
+            show("")
             print_table(list(summary.heads), [list(row) for row in summary.texts()])
         if paths:
             print_paths(paths)
-    tell_unused(audited.unused)
+    show_unused(audited.unused)
     finish(given, audited)
 
 
@@ -166,7 +166,7 @@ def centres(given: Given) -> None:
         print_paths(paths)
         heads, rows, sentences = centres_text(found)
         print_table(heads, rows)
-        tell("\n".join(sentences))
+        show("\n".join(sentences))
     finish(given, found)
 
 
@@ -205,7 +205,7 @@ def cam(given: Given) -> None:
     if given.speaks:
         print_paths(paths)
         language = languages(given.lang or found.mechanism.question.sheet.language)[0]
-        tell("\n".join(found.sentences(language)))
+        show("\n".join(found.sentences(language)))
     finish(given, found)
 
 
@@ -238,7 +238,7 @@ def solve(given: Given) -> None:
         for piece in solved.json():
             typer.echo(piece.decode(), nl=False)
     elif not given.quiet and drawn:
-        tell(f"{drawn.plain}\n\n{drawn.latex}")
+        show(f"{drawn.plain}\n\n{drawn.latex}")
     elif not given.quiet:
         _print_solution(solved, given.lang)
     if not solved.ok:
@@ -253,24 +253,24 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
     head: Mapping[str, Any] = solved.head
     first = next(blocks)
     language = lang or scene.question.sheet.language
-    tell(f"{scene.question.title_in(language)}   F = {head['mobility']}")
+    show(f"{scene.question.title_in(language)}   F = {head['mobility']}")
     for group, assembly in zip(first.motion.structure.groups, first.motion.assembly, strict=True):
         gaps = {"links": group.named, "order": class_of(group.order), "assembly": assembly}
         larger = Phrase("solved larger group", **gaps)
-        tell(say(Phrase("solved group", kind=group.kind, **gaps) if group.order == 2 else larger, language))
+        show(say(Phrase("solved group", kind=group.kind, **gaps) if group.order == 2 else larger, language))
     for said in passed_words(scene, first.motion.passed):
-        tell(say(said, language))
+        show(say(said, language))
     for some in (first, *blocks):
         for values, why, tables in solution_tables(some, language):
-            tell("")
-            tell(say(Phrase("solved driver", drivers=values), language))
+            show("")
+            show(say(Phrase("solved driver", drivers=values), language))
             if why:
-                tell(say(why, language))
+                show(say(why, language))
                 continue
             for table in tables:
                 print_table(*table)
     if (without := solved.without_forces) and not solved.find:
-        tell(say(without, language))
+        show(say(without, language))
 
 
 @command(
@@ -300,7 +300,7 @@ def sweep(given: Given) -> None:
     elif given.json:
         print_json(swept.data)
     elif not given.quiet:
-        tell(swept.text)
+        show(swept.text)
         print_paths(sorted(swept.paths))
     if not swept.ok:
         if wrong:  # the call is at fault, not the mechanism
@@ -378,7 +378,7 @@ def _papers(given: Given, function: Callable[..., Handout | CourseDesigns], **ot
         made = given.call(function, progress=progress, **others)
         paths = made.write(given.out)
     for note in made.notes:
-        tell(f"graphkin: {say(note, languages(given.lang or made.mechanism.question.sheet.language)[0])}", err=True)
+        show(f"graphkin: {say(note, languages(given.lang or made.mechanism.question.sheet.language)[0])}", err=True)
     finish(given, made, paths, files=True)
 
 
@@ -410,8 +410,8 @@ def _problem_set(given: Given) -> None:
     elif not given.quiet:
         gaps = {"count": len(made.answers), "folder": target, "answers": target / "answers.csv"}
         spoken = languages(given.lang or mechanism_of(given.scene).question.sheet.language)[0]
-        tell(say(Phrase("problems in a folder with all answers", **gaps), spoken))
-    tell_unused(made.unused)
+        show(say(Phrase("problems in a folder with all answers", **gaps), spoken))
+    show_unused(made.unused)
     for failure in made.failures:
         complain(Problem(failure.name, failure.why))
     if not made.ok:
@@ -509,7 +509,7 @@ def explain(given: Given) -> None:
     elif given.json:
         print_json(explained.data)
     elif not given.quiet:
-        tell(explained.text)
+        show(explained.text)
     if not explained.ok:
         complain(explained.why)
         raise typer.Exit(explained.exit_code)
@@ -545,7 +545,7 @@ def open_page(given: Given) -> None:
     shelf = Shelf(draft=text_of_link(given.scene)) if linked else Shelf.of(given.scene)
 
     def ready(address: Address) -> None:
-        tell(f"{address.url}\nCtrl-C ends it")
+        show(f"{address.url}\nCtrl-C ends it")
         if given.browser:
             import webbrowser
 

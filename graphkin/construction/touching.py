@@ -18,7 +18,7 @@ from graphkin.construction.board.steps import OnPaper
 from graphkin.plane import Pose, dot, unit
 from graphkin.scene.laws import TURN, Lift
 from graphkin.scene.model import Mechanism
-from graphkin.scene.pairs import HigherPair, LawCam, Meeting, PlacedContact, PlacedGear, SlidingFollower
+from graphkin.scene.pairs import ContactMotion, HigherPair, LawCam, PlacedContact, PlacedGear, SlidingFollower
 
 POINTS = 180
 """Stations of a turn, those at the seams besides them."""
@@ -36,7 +36,7 @@ class Touch:
     links: tuple[str, str]
     at: complex
     normal: complex
-    means: Meeting
+    means: ContactMotion
     centres: Mapping[str, tuple[str, complex]] = field(default_factory=dict)
 
     def curvatures(self, links: Sequence[str], mm: float) -> list[float]:

@@ -23,7 +23,7 @@ from graphkin.scene.laws import FollowerLaw, Lift
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, gaps_of, has_words
 
-Meeting = Literal["slides", "rolls", "meshes"]
+ContactMotion = Literal["slides", "rolls", "meshes"]
 """Two bodies that touch slide on each other, and the force is along the common normal; or roll, with a force of any
 direction; or mesh, their centres held apart by another link, with a force along the tangent of the pitch circles."""
 
@@ -233,7 +233,7 @@ class PlacedContact:
         return (*self.bodies, *((self.carrier,) if self.carrier else ()))
 
     @property
-    def means(self) -> Meeting:
+    def means(self) -> ContactMotion:
         """Whether its bodies slide, roll or mesh."""
         return "slides" if not self.rolling else "meshes" if self.carrier else "rolls"
 
@@ -297,7 +297,7 @@ class PlacedGear:
     roles: ClassVar[tuple[str, ...]] = ("wheel", "wheel")
     by_law: ClassVar[bool] = False
     rolling: ClassVar[bool] = True
-    means: ClassVar[Meeting] = "meshes"
+    means: ClassVar[ContactMotion] = "meshes"
     replaced: ClassVar[bool] = False  # by links and lower pairs
     block: ClassVar[str] = ""  # no link replaces it
     lengths: ClassVar[tuple[float, ...]] = ()
@@ -449,7 +449,7 @@ class LawCam:
     unrolled: ClassVar[None] = None
     by_law: ClassVar[bool] = True
     rolling: ClassVar[bool] = False
-    means: ClassVar[Meeting] = "slides"
+    means: ClassVar[ContactMotion] = "slides"
     carrier: ClassVar[str] = ""
     # asked of whatever moves a link: it neither rolls, nor does the scene give its value
     rolls: ClassVar[bool] = False

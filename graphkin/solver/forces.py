@@ -20,7 +20,7 @@ import numpy as np
 from graphkin.errors import CallError, Unsolvable
 from graphkin.plane import cross
 from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints, no_force
-from graphkin.scene.pairs import Meeting, Pair
+from graphkin.scene.pairs import ContactMotion, Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.algebra.constraints import solve_all
 from graphkin.solver.algebra.pose import Array, known_where
@@ -72,8 +72,10 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
 
     assert joint.pair is not None
     at, normal = touch_of(motion, joint.pair)
-    ways: Mapping[Meeting, Sequence[complex | Array]] = {"slides": [normal], "rolls": both, "meshes": [1j * normal]}
-    return ways[joint.pair.means], at
+    along: Mapping[ContactMotion, Sequence[complex | Array]] = {
+        "slides": [normal], "rolls": both, "meshes": [1j * normal],
+    }  # fmt: skip
+    return along[joint.pair.means], at
 
 
 def balances(motion: Motion) -> list[PairForce]:

@@ -173,13 +173,13 @@ def _next_block(waiting: Sequence[Loop], ties: Mapping[str, str], known: set[Coo
 
 # -- as the structure has them -----------------------------------------------------------------------------------------
 
-Edge = tuple[str, Pair, str]
+Passage = tuple[str, Pair, str]
 """From a link by a pair to another."""
 
 
 def _found(structure: Structure) -> list[Loop]:
     """The loops of all groups in the order of solution, those that the pairs of each close with what comes before."""
-    known: list[Edge] = []
+    known: list[Passage] = []
     loops: list[Loop] = []
     for element in structure.elements:
         joints = element.joints if isinstance(element, Dyad) else ()
@@ -191,12 +191,12 @@ def _found(structure: Structure) -> list[Loop]:
 
 
 def _cycles(
-    structure: Structure, element: Element, edges: Sequence[Edge], known: Sequence[Edge]
-) -> list[Sequence[Edge]]:
+    structure: Structure, element: Element, edges: Sequence[Passage], known: Sequence[Passage]
+) -> list[Sequence[Passage]]:
     """Independent cycles: a tree from the known links over the group; each pair outside the tree closes a cycle, from
     where the ways to its links part."""
     reached = {n for a, _, b in edges for n in (a, b)}.difference(element.members)
-    path: dict[str, list[Edge]] = {name: [] for name in reached}  # from a known link
+    path: dict[str, list[Passage]] = {name: [] for name in reached}  # from a known link
     left, grown = list(edges), True
     while grown:
         grown = False
@@ -217,12 +217,12 @@ def _cycles(
     return cycles
 
 
-def _over_known(structure: Structure, start: str, end: str, known: Sequence[Edge]) -> list[Edge]:
+def _over_known(structure: Structure, start: str, end: str, known: Sequence[Passage]) -> list[Passage]:
     """The shortest path over links placed before."""
     placed = {n for a, _, b in known for n in (a, b)} | {structure.scene.frame.name}
     shared = [(a, Pair(p, a, b), b) for p, names in structure.hinges.items() for a in names for b in names
               if a < b and {a, b} <= placed]  # fmt: skip
-    paths: dict[str, list[Edge]] = {start: []}
+    paths: dict[str, list[Passage]] = {start: []}
     queue = [start]
     while end not in paths:
         here = queue.pop(0)
@@ -234,7 +234,7 @@ def _over_known(structure: Structure, start: str, end: str, known: Sequence[Edge
     return paths[end]
 
 
-def _oriented(structure: Structure, cycle: list[Edge]) -> Sequence[Edge]:
+def _oriented(structure: Structure, cycle: list[Passage]) -> Sequence[Passage]:
     """A cycle whose first edge leads to a driven link if it has one, else to the frame; it passes the crank from the
     frame outwards."""
     driven, frame = {e.link for e in structure.driven}, structure.scene.frame.name
@@ -256,7 +256,7 @@ def _place(structure: Structure, link: str, pair: Pair) -> tuple[complex, str]:
     return at, next((p for p, z in points.items() if abs(z - at) < 1e-12 * structure.scene.size), "")
 
 
-def _arrows(structure: Structure, cycle: Sequence[Edge]) -> tuple[LoopArrow, ...]:
+def _arrows(structure: Structure, cycle: Sequence[Passage]) -> tuple[LoopArrow, ...]:
     """The arrows of a loop of pairs: on each link from the pair that leads to it to the next, along guides the travels.
     """
     arrows: list[LoopArrow] = []

@@ -278,7 +278,7 @@ def _mark_special(plot: Polygons, move: VectorChain) -> None:
                  base=move.base, kind="driven" if driven else ""))  # fmt: skip
 
 
-# -- nets --------------------------------------------------------------------------------------------------------------
+# -- vector graphs -----------------------------------------------------------------------------------------------------
 
 
 def _free_letters(plot: Polygons) -> Sequence[str]:

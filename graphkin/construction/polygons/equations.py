@@ -296,7 +296,7 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
     sides = [_side_of(plot, order, path) for path in equation.sides]
     if equation.base:
         symbol = plot.symbol(letter(order), equation.end, PointRef(equation.end.point, equation.base))
-        plot.ties[order, equation.end.point] = 0j
+        plot.relative_special[order, equation.end.point] = 0j
         if not any(part.span for side in sides for part in _parts(side)):
             return  # exactly: nothing drives a leg
         written = ((Term(symbol, False, False),), *map(_written, sides))
@@ -319,7 +319,7 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
     mm = plot.found_mm(symbol, vector.span)
     plot.do(VectorStep("read", "vector", order, (vector,), number, symbol=symbol, mm=mm))
     if equation.base:
-        plot.ties[order, equation.end.point] = vector.span
+        plot.relative_special[order, equation.end.point] = vector.span
     else:
         _rate(plot, order, bar, vector, group)
 
@@ -402,7 +402,7 @@ def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
         return _rolling_parts(plot, order, edge)
     if edge.special:
         # as a polygon of its own gave it: nothing where both special points move alike
-        span = plot.ties[order, edge.end.point] * (1 if edge.forward else -1)
+        span = plot.relative_special[order, edge.end.point] * (1 if edge.forward else -1)
         return [_term(plot, edge, letter(order), unit(span), abs(span), edge.direction)] if span else []
     if edge.held:
         return _contour_parts(plot, order, edge)

@@ -91,7 +91,7 @@ class Polygons:
     chains, plans : the construction of each group, found once for all drawings of a task
     contours : for each group its links held still, each with the rest on it
     special, pitch_points : the special points, and the letters where wheels of larger groups roll on each other
-    ties : by a special point of two links: that of the second from it (mm)
+    relative_special : by a special point of two links: that of the second from it (mm)
     believed : links whose rates are own values, not measured
     tried : rates of sliding pairs moved at a trial speed (m/s, m/s2)
     trains : velocity plans of rolling links
@@ -118,7 +118,7 @@ class Polygons:
     contours: dict[LargerGroup, tuple[tuple[str, LargerGroup], ...]] = field(default_factory=dict)
     special: set[str] = field(default_factory=set)
     pitch_points: dict[str, str] = field(default_factory=dict)
-    ties: dict[tuple[Order, str], complex] = field(default_factory=dict)
+    relative_special: dict[tuple[Order, str], complex] = field(default_factory=dict)
     believed: set[tuple[Order, str]] = field(default_factory=set)
     tried: dict[tuple[Order, str], float] = field(default_factory=dict)
     trains: list[TrainPlan] = field(default_factory=list)
