@@ -87,6 +87,8 @@ class Touching:
         return self._contact(pair) if isinstance(pair, PlacedContact) else self._mesh(pair)
 
     def _contact(self, pair: PlacedContact) -> Touch:
+        """The contact of two discs, which parts their line of centres (mm) as r1 : r2 with the signs of the radii; or
+        of a disc and a face, at the radius from the centre square to the face."""
         centres = {link: (centre, self.place(link, centre))
                    for link, centre in zip(pair.round_links, pair.centres, strict=True)}  # fmt: skip
         first, *second = (place for _, place in centres.values())
@@ -100,6 +102,8 @@ class Touching:
         return Touch(pair.name, pair.bodies, at, line / abs(line), pair.means, centres)
 
     def _mesh(self, pair: PlacedGear) -> Touch:
+        """The pitch point of two wheels, which parts the line of their axes (mm) as z1 : z2, internal teeth negative;
+        of a rack the foot of the wheel's axis on its pitch line."""
         axes = zip(pair.wheels, pair.axes, strict=True)
         centres = {wheel: (letter, self.place(pair.carrier, letter)) for wheel, letter in axes if letter}
         wheel, other = pair.wheels

@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+import re
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
 from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Stroke
 
 pytestmark = pytest.mark.quick
 
@@ -47,3 +50,20 @@ def test_the_colours_come_round_again():
 
 def test_a_tint_is_almost_white():
     assert luminance(strokes.tint("#0067a6")) > 0.6
+
+
+OF_THE_HOUSE = {(kind.width, kind.dash) for kind in vars(strokes).values() if isinstance(kind, Stroke)}
+FOUND = {(0.7, ())}  # the mechanism or the profile that a construction finds
+
+
+@pytest.mark.parametrize("figure", [
+    "cam-offset-roller/cam", "cam-swinging-zh/cam", "cam-flat-face/cam", "design-crank-rocker-zh/design",
+    "design-guide-bar/design", "design-slider-crank/design", "design-three-places/design", "gear-train-epicyclic/plan",
+])  # fmt: skip
+def test_cams_syntheses_and_trains_are_drawn_in_the_kinds_of_lines_of_all_figures(figure: str) -> None:
+    svg = (Path(__file__).parents[2] / "figures" / f"{figure}.svg").read_text(encoding="utf-8")
+    drawn = set()
+    for shape in re.findall(r"<\w+ [^>]*stroke-width=[^>]*>", svg):
+        width, dash = (re.search(rf' stroke-{key}="([^"]*)"', shape) for key in ("width", "dasharray"))
+        drawn.add((float(width[1]), tuple(map(float, dash[1].split())) if dash else ()))
+    assert set() == drawn - OF_THE_HOUSE - FOUND

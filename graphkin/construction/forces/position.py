@@ -343,6 +343,8 @@ def springs(sheet: Sheet, hand: Instrument) -> tuple[ForceStep, ...]:
 
 
 def _spring(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> ForceStep:
+    """A spring by its length as read on the drawn mechanism (m), its pull on the first link (N) along its line, and the
+    opposite on the second.  Raises Unsolvable ("dead point") where its points coincide."""
     pricked = (drawn.sheet.points.get(PointRef(point)) for point in spring.points)
     start, end = (drawn.place(*place) if z is None else z for z, place in zip(pricked, spring.ends, strict=True))
     size = abs(end - start)

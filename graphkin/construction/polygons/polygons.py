@@ -78,7 +78,8 @@ AS_DRAWN = OwnValues()
 
 @dataclass(frozen=True, eq=False)
 class Polygons:
-    """The velocity and the acceleration polygon of a position, as far as they are drawn.
+    """The velocity and the acceleration polygon of a position, as far as they are drawn: the collections grow with each
+    vector, as the steps on the board do; `again` gives others to go on with, which leave these as they stand.
 
     Parameters
     ----------

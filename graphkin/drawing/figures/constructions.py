@@ -65,7 +65,7 @@ ROOM = 9.0  # mm around the construction, for names
 PANEL = (168.0, 128.0)  # mm that the construction may fill
 FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the figure so many times larger is cut off
 _LINES: dict[str, Stroke] = {
-    "given": strokes.LINK, "construction": strokes.CONSTRUCTION, "limit": Stroke(0.35, (3.0, 1.0)),
+    "given": strokes.LINK, "construction": strokes.CONSTRUCTION, "limit": strokes.LIMIT,
     "mechanism": Stroke(0.7),
 }  # fmt: skip
 
@@ -334,7 +334,6 @@ HIGH = (16.0, 40.0)
 PAST = 5.0
 """mm that a ray goes on beyond what it carries."""
 BEGUN = 2  # steps, to the circles, with which a problem sheet begins
-PITCH, THIN = Stroke(0.25, (5.0, 1.0, 0.6, 1.0)), Stroke(0.13)
 ROWS = 10
 
 
@@ -462,7 +461,7 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
     divided = [] if begun else [(d.degree, d.lift, str(k)) for k, d in enumerate(divisions(sheet))]
     for degree, lift, name in (*divided, *((TURN, lift, "") for _, lift, _ in divided[:1])):
         foot = at(degree, law.least)
-        drawn.append(Line(foot, at(degree, lift), THIN))
+        drawn.append(Line(foot, at(degree, lift), strokes.CONSTRUCTION))
         if name:
             cell(foot + 3.2j, plain(name, SMALL))
     for piece in law.pieces:
@@ -471,7 +470,7 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
         text = rich(f"{short} {_law(piece.by, language)}", SMALL)
         fits = runs_width(text) <= (end - start).real - 2.0
         cell((start + end) / 2 + 1.0j, text if fits else rich(short, SMALL))
-        drawn += [Line(z - 1.4j, z + 1.4j, THIN) for z in (start, end)]
+        drawn += [Line(z - 1.4j, z + 1.4j, strokes.CONSTRUCTION) for z in (start, end)]
     unit = _unit(scene, cam)
     h, s = (sign("ψ" if unit == "°" else letter) for letter in "hs")
     scale = sign("μ", "φ") + f" = {number(360.0 / LONG)}°/mm,  " + sign("μ", "s") + f" = {number(per)}{unit}/mm"
@@ -530,24 +529,24 @@ def _draw_inversion(plate: Plate, step: Step, drawn_at: Sequence[CamStation], re
     for k, stroke in enumerate(step.strokes):
         match stroke:
             case CompassArc(0j, radius):
-                lines.append(Circle(0j, radius, stroke=THIN))
+                lines.append(Circle(0j, radius, stroke=strokes.CONSTRUCTION))
             case Curve(curve) if stroke is not step.strokes[-1]:
-                lines.append(Polyline(tuple(map(on_page, curve)), PITCH))
+                lines.append(Polyline(tuple(map(on_page, curve)), strokes.PITCH))
             case _ if k not in shown:
                 continue
             case CompassArc(centre, radius, _, True):
-                lines.append(Circle(on_page(centre), radius, stroke=THIN))
+                lines.append(Circle(on_page(centre), radius, stroke=strokes.CONSTRUCTION))
             case CompassArc(pivot, arm, at):
                 first, last = (cmath.phase(z - pivot) for z in (drawn_at[k].base, at))
                 turned = math.remainder(last - first, TURN) / 2
                 middle, beyond = first + turned, abs(turned) + 3.0 / arm
-                lines.append(Arc(on_page(pivot), arm, middle - beyond, middle + beyond, THIN))
+                lines.append(Arc(on_page(pivot), arm, middle - beyond, middle + beyond, strokes.CONSTRUCTION))
             case Mark(_, at):
-                lines.append(Circle(on_page(at), 0.5, stroke=THIN))
+                lines.append(Circle(on_page(at), 0.5, stroke=strokes.CONSTRUCTION))
                 ends[k] = at
             case Ray(foot, along, None):
                 ends[k] = foot + math.sqrt(max(reach**2 - abs(foot) ** 2, 0.0)) * along
-                lines.append(Line(on_page(foot), on_page(ends[k]), THIN))
+                lines.append(Line(on_page(foot), on_page(ends[k]), strokes.CONSTRUCTION))
             case Ray(through, along, to) if to is not None:
                 lines.append(Line(on_page(through), on_page(to + 6.0 * along), strokes.DIRECTION))
             case Bar():

@@ -59,7 +59,7 @@ AROUND, WITHIN, SWING_RADII = (
 )
 MARKS = ("theta", "stroke", "K", "gamma")  # of a scene that says none
 NARROWER = 40  # times that a place is halved in
-NUMBERED, LIMIT, PATH = Stroke(0.18), Stroke(0.35, (3.0, 1.2)), Stroke(0.25, (4.0, 0.8, 0.5, 0.8))
+NUMBERED, PATH = Stroke(0.18), Stroke(0.25, (4.0, 0.8, 0.5, 0.8))
 
 
 @dataclass(frozen=True)
@@ -216,7 +216,7 @@ def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
     sheet, letters = page.sheet, page.letters
     numbered = [_position(position, letters, NUMBERED, f"position-{name}") for name, position in shown.numbered.items()]
     limits = [
-        _position(position, letters, LIMIT, f"limit-{pair.replace('/', '-')}-{end}")
+        _position(position, letters, strokes.LIMIT, f"limit-{pair.replace('/', '-')}-{end}")
         for pair, both in shown.limits.items() for end, position in zip(("low", "high"), both, strict=True)
     ]  # fmt: skip
     least = []

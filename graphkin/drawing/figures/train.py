@@ -15,7 +15,7 @@ from graphkin.construction.trains import CentreLine, TrainPlan
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Line, Primitive, Stroke, on_page
+from graphkin.drawing.ink.primitives import Line, Primitive, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, arrow, hatched_line
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
@@ -205,7 +205,6 @@ def _table(page: FigurePage, plan: TrainPlan) -> Block:
 # -- a train seen from the side ----------------------------------------------------------------------------------------
 
 TOOTH, RIM, APART = 5.0, 6.0, 0.45
-AXIS = Stroke(0.18, (5.0, 1.0, 0.6, 1.0))
 STEP = 13.0
 """mm from one plane to the next, less where there are many."""
 
@@ -293,7 +292,7 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
             for s in held_at:
                 on_axis.setdefault((carrier, s.name), set()).add(plane)
     for axis in dict.fromkeys(axis for mesh in line.meshes for axis in mesh.axes if axis):
-        plate.line("mechanism", complex(0.0, heights[axis]), complex(count * step, heights[axis]), AXIS)
+        plate.line("mechanism", complex(0.0, heights[axis]), complex(count * step, heights[axis]), strokes.AXIS)
     _shafts(plate, scene, line, on_axis, at, heights)
     for link, lines in shapes.items():
         plate.put("mechanism", *lines, id=f"plan-link-{link.replace('/', '-')}", classes=("link",))

@@ -30,8 +30,6 @@ AT_CAM, FLAT = 9.0, 13.0
 """mm: how far normal and tangent of a cam go on beyond what they touch, and half the flat face of its follower."""
 CURVED_ALONG = 16.0
 """mm of a circular slot to either side of what runs in it."""
-PITCH = Stroke(0.25, (4.0, 0.8, 0.6, 0.8))
-AXIS = Stroke(0.18, (4.0, 0.8, 0.6, 0.8))
 TOUCHING = 1e-6
 """mm: centres so near lie on each other."""
 HATCHES = 2.6
@@ -80,14 +78,14 @@ def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
     parts: list[Primitive] = []
     for wheel, centre, radius in links.pitch_circles():
         if wheel == link:
-            parts += _outline(on_page(centre), abs(radius), PITCH.coloured(colour))
+            parts += _outline(on_page(centre), abs(radius), strokes.PITCH.coloured(colour))
             if link == here.ground:
                 parts += _ring(centre, abs(radius), radius < 0, colour)
     for rack, foot, body in links.pitch_lines():
         if rack == link:
             along = 1j * body
             reach = 2.2 * FACE * along
-            parts.append(Line(on_page(foot - reach), on_page(foot + reach), PITCH.coloured(colour)))
+            parts.append(Line(on_page(foot - reach), on_page(foot + reach), strokes.PITCH.coloured(colour)))
             edge = body * 2.0
             ends = (foot - reach + edge, foot + reach + edge)
             edge_of_body = Line(on_page(ends[0]), on_page(ends[1]), strokes.LINK.coloured(colour))
@@ -255,7 +253,7 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
         lines = list[Primitive]()
         for letter, along, reach in (("n", normal, NORMAL), ("t", 1j * normal, TANGENT)):
             ends = at - reach * along, at + reach * along
-            lines.append(Line(on_page(ends[0]), on_page(ends[1]), AXIS))
+            lines.append(Line(on_page(ends[0]), on_page(ends[1]), strokes.AXIS))
             for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
                 mark = f"label-{letter}-{name}-{k + 1}{tag}"
                 names.append(Label.of(rich(sign(letter), 3.0), on_page(end), mark, toward=(phase(way),)))
