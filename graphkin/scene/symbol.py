@@ -451,15 +451,15 @@ class Printed:
 
     @property
     def rounding(self) -> float:
-        """The distance within which the true value lies if it was rounded (SI): half a unit of the last digit, but of a
-        single digit never more than a hundredth.
+        """The distance within which the true value lies if it was rounded (SI): half a unit of the last digit (of each
+        of two components), but of a single digit never more than a hundredth.
 
         A single digit is not taken for a rounded number.  A zero is zero to the decimals written.
         """
         if not self.value:
             return (0.5 if any("." in text for text in self.texts) else MOST_PARDONED) * self.step
         most = MOST_PARDONED * abs(self.value) if self.digits < 2 else math.inf
-        return min(0.5 * self.step, most) * (1 + 1e-9)
+        return min(0.5 * self.step * math.sqrt(len(self.texts)), most) * (1 + 1e-9)
 
     @property
     def sure_digits(self) -> int:

@@ -248,6 +248,11 @@ def test_what_was_drawn_is_a_size_unless_a_sign_is_written(text, verdict):
     assert verdict == judged(SIXBAR, v_D=text)["verdict"]
 
 
+def test_a_vector_is_right_whose_components_are_rounded_each():
+    # -3079.455, -2452.265
+    assert "right" == judged(SIXBAR, a_B_at_3=[-3079, -2452])["verdict"]
+
+
 @pytest.mark.parametrize(("first", "verdict"), [("114.397", "right"), ("-114.397", "wrong")])
 def test_one_sign_in_a_column_makes_its_numbers_signed(first, verdict):
     # a ram that goes to the left at both: -114.397, -110.397
