@@ -161,7 +161,7 @@ class Evidence:
         """
         try:
             polygons = self._stages.to(of, {s: v for s, v in own.items() if self.before(s, of)})
-        except (GraphkinError, ArithmeticError):
+        except (GraphkinError, ArithmeticError, np.linalg.LinAlgError):
             return ()  # a drawing that cannot be gone on with
         if polygons is None:
             return ()

@@ -256,7 +256,9 @@ class Driver:
 
     def __post_init__(self) -> None:
         self.__dict__.update(
-            turns=not self.slide, key=self.slide or self.link, links=(self.link, self.relative_to),
+            turns=not self.slide, links=(self.link, self.relative_to),
+            # a driver of the scene may turn a follower too, seen from another link
+            key=self.slide or (f"{self.link}'" if self.ratios else self.link),
             values=(self.value, self.rate, self.second), measure="length" if self.slide else "angle",
             rolls=bool(self.ratios), given=not self.ratios,
         )  # fmt: skip

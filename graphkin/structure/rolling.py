@@ -121,7 +121,7 @@ def followers_of(
         rate, second = (added_up(float(r) * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True))
                         for k in (1, 2))  # fmt: skip
         kind, name = coordinate
-        start = scene.starts.get(name)
+        start = _start(scene, name)
         follower = Driver(name, frame, start or 0.0, rate, second, ratios=tuple(map(float, ratios)), through=through)
         if kind == "travel":
             slide = next(s for s in slides if s.key == name)
@@ -133,6 +133,14 @@ def followers_of(
         _add(base, {coordinate: Fraction(1), **follows})
     left = tuple(r for r in relations if r in twice or (r not in settled and _add(base, r.terms)))
     return tuple(followers), left
+
+
+def _start(scene: Mechanism, name: str) -> float | None:
+    """The start of a link or slide: its own, or that of another link from which it is turned, or which it turns."""
+    tied = [(d.relative_to, d.value) for d in scene.drivers if d.turns and d.link == name]
+    tied += [(d.link, -d.value) for d in scene.drivers if d.turns and d.relative_to == name]
+    starts = (scene.starts[link] + value for link, value in tied if link in scene.starts)
+    return scene.starts.get(name, next(starts, None))
 
 
 def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:

@@ -339,3 +339,23 @@ STEPHENSON = {
 def test_a_guessed_slip_is_nearer_than_the_right_value_and_its_distance_is_named(symbol, said, looks_like):
     (row,) = graphkin.audit(STEPHENSON, answers={"Ann": {symbol: said}}).rows
     assert ["wrong", looks_like] == row[-2:]
+
+
+def test_own_values_with_which_trial_polygons_cannot_be_divided_are_judged_all_the_same():
+    scene = {
+        "frame": {
+            "points": {"A": [-30, 30]},
+            "guides": {"s": {"through": [-25, 28], "angle": 8}, "t": {"through": "A", "angle": 24}},
+        },
+        "links": {
+            "1": {"on": "0.s", "at": {"B": [-96, 84], "C": [8, 50]}},
+            "2": {"points": ["A"]},
+            "3": {"points": ["C", "D"], "length": 40},
+            "4": {"on": "0.t", "points": ["D"]},
+        },
+        "pins": {"B": {"of": "1", "in": "2"}},
+        "driver": {"link": "3", "angle": -159, "omega": 10, "relative_to": "2"},
+        "sketch": {"B": [-95, 103], "C": [13, 83], "D": [48, 64]},
+    }
+    own = {"alpha_2": 34.0, "v_B": 630, "omega_3": -5.96}
+    assert {"wrong"} == {entry["verdict"] for entry in graphkin.audit(scene, answers={"A": own}).data["values"]}

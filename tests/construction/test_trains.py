@@ -157,3 +157,20 @@ def test_a_wheel_on_a_carrier_that_is_found_later_has_the_rate_of_willis():
 def test_speeds_of_a_rack_stand_in_the_table_of_the_plan_in_the_units_of_the_scene():
     figures = draw(TRAINS["a rack that is driven"][0] | {"units": {"length": "cm"}}, figures=["plan"]).figures
     assert [">320 cm/s<" in figures["plan"]._repr_svg_(), ">240 cm/s²<" in figures["plan-2"]._repr_svg_()] == [True] * 2
+
+
+@pytest.mark.parametrize("start", [{"3": 40}, {"2": 20}])
+def test_a_driver_may_turn_one_wheel_of_a_train_seen_from_another(start):
+    scene = {
+        "frame": {"points": {"B": [0, 0], "C": [60, 0]}},
+        "links": {"2": {"points": ["C", "D"], "length": 31}, "3": {"points": ["B", "E"], "length": 13}},
+        "gears": {"g": {"between": ["2", "3"], "teeth": [20, 35], "carrier": "0"}},
+        "driver": {"link": "2", "angle": -20, "omega": -12, "alpha": 14, "relative_to": "3"},
+    }
+    for link, angle in start.items():
+        scene["links"][link]["start"] = angle
+    result = check(scene, find=["theta_2", "theta_3", "omega_2", "omega_3"])
+    # 20 omega_2 + 35 omega_3 = 0, omega_2 - omega_3 = -12
+    expected = {"theta_2": 20, "theta_3": 40, "omega_2": -12 * 35 / 55, "omega_3": 12 * 20 / 55}
+    assert expected == pytest.approx({name: result[name].measured for name in expected})
+    assert result.ok

@@ -60,7 +60,7 @@ from graphkin.plane import added_up, dot, unit
 from graphkin.scene.model import Driver
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Mover, driver_pair
+from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, driver_pair
 from graphkin.words import links_named
 from graphkin.words.written import LONGEST, MOST
 
@@ -100,7 +100,7 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     """Draw a driven link: its rate, given or read from a train's plan, with its points about the hinge; or the given
     motion along its guide."""
     name, driver, pair = element.link, element.driver, element.pair
-    mm = _roll(plot, order, driver) if driver.rolls else 0.0
+    mm = _roll(plot, order, element) if driver.rolls else 0.0
     rate = plot.given[driver.key][ORDERS.index(order)]
     if isinstance(driver, Driver) and driver.turns:
         other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
@@ -125,11 +125,12 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
         draw_equation(plot, order, element, VectorChain.closing(edge if name == pair.a else edge.reversed()))
 
 
-def _roll(plot: Polygons, order: Order, driver: Mover) -> float:
+def _roll(plot: Polygons, order: Order, element: Driven) -> float:
     """The rate of a rolling link, read from a velocity plan, as the driver's rate; and the length read for it (mm)."""
     from graphkin.construction.trains import rolled
 
-    coordinate = "angle" if driver.turns else "travel", driver.key
+    driver = element.driver
+    coordinate = ("angle", element.link) if driver.turns else ("travel", driver.key)
     which = ORDERS.index(order)
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
     turns += [(*d.links, d.values[1 + which]) for d in plot.structure.scene.drivers if d.turns]
