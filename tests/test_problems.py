@@ -211,6 +211,12 @@ def test_a_design_file_with_an_empty_table_is_refused_in_words():
     assert "design: is missing; a design file has a table [design] with kind and its data" == refused.value.text()
 
 
+def test_a_list_of_pairs_that_is_too_short_is_refused_in_chinese():
+    with pytest.raises(SceneError) as refused:
+        graphkin.design({"design": {"kind": "function", "frame": 100, "pairs": [[60, 20], [75, 45]]}})
+    assert "design.pairs：读到 2 个；应给三个 [曲柄角, 摇杆角]" == refused.value.text("zh")
+
+
 @pytest.mark.parametrize(("said", "name", "text"), [
     ("c：不是 XML：第 1 行第 15 列：标签不配对；请在 Linkage 中重新保存", "c.linkage2", "<linkage2><a></linkage2>"),
     ("c：不是 JSON：第 1 行第 2 列（字符 1）：应为双引号中的键名；请在 pylinkage 中重新保存", "c.json", "{"),

@@ -141,18 +141,18 @@ def explained(
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
     others = [s for s in wrong if s != symbol and case.before(s, symbol)]
     suspects = [*_weighed(case, judged), *(_following(case, judged, own, others, chance) if others else ())]
-    best, apart = max((one for one in suspects if one[1] > chance), key=lambda w: w[1], default=None), None
+    best, deviation = max((one for one in suspects if one[1] > chance), key=lambda w: w[1], default=None), None
     if best is None and drawn:
         every = Suspects((*case.suspects(symbol).all, *(s for s, _ in suspects if s.follows_from)))
         best = judged.drawn_badly(every)
         if best is not None:
             meant = comparable(judged.printed, best[0].value, judged.line)
-            apart = abs(judged.printed.value - meant) / abs(meant)
+            deviation = abs(judged.printed.value - meant) / abs(meant)
     if best is None:
         return judged
     verdict: Verdict = "right from own values" if best[0].follows_from else "wrong"
     return replace(judged, verdict=verdict, looks_like=best[0].phrase, follows_from=best[0].follows_from,
-                   apart=apart)  # fmt: skip
+                   apart=deviation)  # fmt: skip
 
 
 def _following(

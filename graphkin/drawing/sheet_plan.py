@@ -30,9 +30,9 @@ POLYGON, HIGHER = 0.315, 0.36
 FEW = 3  # moving links
 # Height of the mechanism's panel by that of a polygon's: the usual one, and such as tall mechanisms may have.
 HEIGHTS = (1.08, 1.33, 1.43)
-NARROWEST, WIDEST = 0.26, 0.66  # width of the mechanism's panel where writing goes overleaf
+NARROWEST, WIDEST = 0.26, 0.66  # width of the mechanism's panel where the writing has a continuation
 # What a plan costs beside the usual one, in tenfold finer scales: less room for the equations, a column too narrow for
-# them, less room below the polygons, writing overleaf, a larger paper.
+# them, less room below the polygons, a continuation, a larger paper.
 TALL, NARROW, STRIP, LESS_BELOW, CONTINUED, LARGER = 0.28, 0.35, 0.45, 0.1, 3.0, 5.0
 
 
@@ -159,7 +159,7 @@ def _upright(
     Parameters
     ----------
     split : width of the mechanism's panel by that of the page
-    polygon : height of a polygon's panel by that of the page; None: both fill it, and all writing goes overleaf
+    polygon : height of a polygon's panel by that of the page; None: both fill it, the writing on a continuation
     tall : height of the mechanism's panel by that of a polygon's, with the equations below it; None: as tall as both
         polygons, the equations between the given and the readings
     """

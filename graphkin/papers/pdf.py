@@ -195,7 +195,7 @@ SHORT = 0.25  # of a last page that is worth a page
 KEPT = 50.0  # of parting what belongs together: only where a page does not hold it
 INSIDE = 0.08  # of a page break between steps
 BEFORE = 0.04  # of one between steps and their figure
-DEFERRED = 0.15  # of a figure overleaf, some of what follows it before it
+DEFERRED = 0.15  # of a figure on the next page, some of what follows it before it
 WORTH = 0.5  # that a figure below its words instead of beside them must save
 
 Question: TypeAlias = tuple[Leaf, float | None]

@@ -150,9 +150,9 @@ class PreparedMechanism:
         (low, high), turn = self.range.ends, 2 * math.pi
         parts = [(begin, end, k) for k, (begin, end) in enumerate(self._parts.tolist())]
         if self.turns and not self.whole:
-            again = not self.range.rolls_apart
-            parts += [(max(begin + turn, high), end + turn, k) for begin, end, k in parts if again]
-            parts.append((high + BESIDE, low + turn - BESIDE if again else math.inf, -1))
+            repeats = not self.range.rolls_apart
+            parts += [(max(begin + turn, high), end + turn, k) for begin, end, k in parts if repeats]
+            parts.append((high + BESIDE, low + turn - BESIDE if repeats else math.inf, -1))
         return sorted(parts)
 
     def _divided(self, steps: GivenValues | UniformGrid) -> tuple[list[tuple[int, slice | Array]], list[slice], Array]:

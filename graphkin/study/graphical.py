@@ -243,8 +243,8 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         sign("μ", "t") + f" = {number(chords.per_x)} s/mm", sign("H") + f" = {number(chords.pole)} mm",
         sign("μ", str(result)[0]) + f" = {number(per_found)} {per_mm(of_result.written)}",
     )  # fmt: skip
-    off = Phrase(f"graphical {chords.way} off", error=f"{100 * chords.off:.2g}")
-    facts: list[Words] = [spaced(",  ", scales), say(off, language)]
+    accuracy = Phrase(f"graphical {chords.way} off", error=f"{100 * chords.off:.2g}")
+    facts: list[Words] = [spaced(",  ", scales), say(accuracy, language)]
     lines = [runs for fact in facts for runs in wrapped(fact, 3.0, WIDTH - 2 * MARGIN)]
     exact = chords.exact / chords.per_found
     upper, lower = (

@@ -116,8 +116,8 @@ class Audited(OfScene, Result):
             own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _cell(who.at)}
             lead = [own[key] for key in self._named]
             for row in rows_of(self.mechanism, who, judged, self.language):
-                off, gap = row["deviation_pct"], row.get("loop_gap")
-                deviation = f"{round(off, 2) + 0.0:+.2f} %" if isinstance(off, float) else ""
+                error, gap = row["deviation_pct"], row.get("loop_gap")
+                deviation = f"{round(error, 2) + 0.0:+.2f} %" if isinstance(error, float) else ""
                 verdict = word(str(row["verdict"] or "not judged"), self.language)
                 said = str(row.get("looks_like", row.get("why", "") if row["verdict"] == "not readable" else ""))
                 if "looks_like_off_pct" in row:

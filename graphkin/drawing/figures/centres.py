@@ -374,7 +374,7 @@ def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
 
 
 def background(piece: Piece, *also: str) -> Piece:
-    """The mechanism alone, pale: without lengths, senses and compass arcs; with groups of the classes ``also``."""
+    """The mechanism alone, pale: without lengths, rate arrows and compass arcs; with groups of the classes ``also``."""
     kept = tuple(
         thing for thing in piece.layers["mechanism"]
         if isinstance(thing, Group) and {"frame", "link", "point", "cam", *also} & set(thing.classes)
@@ -510,7 +510,7 @@ def _overlapping(named: Piece) -> set[str]:
 def _found(label: Label, centres: Centres) -> bool:
     """Whether a name belongs to centres that are all crossings of two lines."""
     at = label.mark
-    if isinstance(at, tuple) or not label.text.id.startswith("label-centre-"):
+    if isinstance(at, tuple) or "centre" not in label.text.classes:
         return False
     return all(c.lines for c in centres.found if c.point is not None and abs(_spot(c) - at) < TOGETHER)
 

@@ -2,7 +2,7 @@
 polygons of several positions beside each other, all at the same scales, a column a position.
 
 While a hand moves the mechanism its links, vectors and letters are drawn at once, without the search for free room;
-dimensions, insets and senses come when the hand rests and the figure is drawn in full.
+dimensions, insets and rate arrows come when the hand rests and the figure is drawn in full.
 """
 
 from __future__ import annotations

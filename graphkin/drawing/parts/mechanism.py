@@ -338,8 +338,8 @@ def _fits(box: Box, room: tuple[float, float]) -> bool:
 
 
 def bare_mechanism(sheet: Sheet, letters: Notation) -> Piece:
-    """Frame, links and points of the mechanism with their names, about the world's origin: without lengths, senses, and
-    special points, which only its polygons need."""
+    """Frame, links and points of the mechanism with their names, about the world's origin: without lengths, rate
+    arrows, and special points, which only its polygons need."""
     here = MechanismOnPaper(sheet, letters)
     special = sheet.special_points
     return joined((links(here), _springs(here), joints(here, special), link_names(here), _marks(here)))
