@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 from itertools import combinations, zip_longest
@@ -31,7 +31,7 @@ from graphkin.drawing.figures.centres import background, centre_marks, near_box
 from graphkin.drawing.figures.constructions import cam_pictures, scaled_cam
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
 from graphkin.drawing.figures.train import PLAN_WORDS, train_pages
-from graphkin.drawing.ink.primitives import Group, Primitive, on_page
+from graphkin.drawing.ink.primitives import Primitive, on_page
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon import extent
@@ -203,8 +203,9 @@ def _position(
     first = languages(lesson.language)[0]
     name = drivers(lesson.sheet, lesson.letters)
     figures = [*_figures(lesson, piece, frames), *_plans(lesson)]
+    plans = {figure["name"].removeprefix("plan-") for figure in figures if figure["name"].startswith("plan-")}
     stages, steps = list[dict[str, str]](), list[dict[str, object]]()
-    for count, (stage, figure, items) in enumerate((*_motion(lesson), *_forces(lesson, figures))):
+    for count, (stage, figure, items) in enumerate((*_motion(lesson, plans), *_forces(lesson, figures))):
         stages.append(stage)
         for item, finds in items:
             work = "".join(f'<p class="work">{words_html(line, first)}</p>' for line in item.work)
@@ -225,11 +226,16 @@ def _position(
     }, stages
 
 
-def _motion(lesson: Lesson) -> Iterator[StageTold]:
-    """The stages of the position and of the polygons."""
+def _motion(lesson: Lesson, plans: Container[str]) -> Iterator[StageTold]:
+    """The stages of the position and of the polygons; steps on a velocity plan show its figure, if there is one."""
+
+    def finds(step: Step) -> dict[str, Json]:
+        shown: dict[str, Json] = {"d": f"plan-{step.diagram}"} if step.plan and step.diagram in plans else {}
+        return shown | _found(lesson, step)
+
     for stage in lesson.stages:
         svg = svg_element(equation_picture(lesson, stage.equation)) if stage.equation is not None else ""
-        items = zip(step_items(lesson, stage), (_found(lesson, step) for step in stage.steps), strict=True)
+        items = zip(step_items(lesson, stage), map(finds, stage.steps), strict=True)
         yield {"title": said_html(stage_title(lesson, stage)), "svg": svg}, stage.diagram, [*items]
 
 
@@ -283,14 +289,12 @@ def _drawings(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[tuple[Fi
 
 
 def _plans(lesson: Lesson) -> Iterator[Figure]:
-    """The velocity plans of rolling links, each shown from its last step on."""
+    """The velocity plans of rolling links, step by step."""
     sheet, language = lesson.sheet, lesson.language
     for plan, page in train_pages(FigurePage(sheet, "plan", language, lesson.letters)).items():
-        last, bare = max((step.number for step in sheet.steps if step.plan == plan), default=0), bare_picture(page)
-        drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last}",)),)) if last else bare
-        order = sheet.trains[plan - 1].order
-        title = said(PLAN_WORDS[order], language)
-        yield _figure(f"plan-{order}", drawn, _caption(title))
+        bare, order = bare_picture(page), sheet.trains[plan - 1].order
+        drawn = replace(bare, children=stepped(bare.children))
+        yield _figure(f"plan-{order}", drawn, _caption(said(PLAN_WORDS[order], language)))
 
 
 def _cams(lesson: Lesson) -> Iterator[Figure]:

@@ -71,7 +71,8 @@
   // the printed page of another position: its steps by equation, and each figure at true size
   function onPaper(now) {
     const bare = (svg) => svg.replace(/ id="[^"]*"/g, "");
-    const last = (e) => e === now.stages.length - 1 || now.steps.find((s) => s.e === e + 1)?.d !== now.steps.find((s) => s.e === e)?.d;
+    const of = (e) => now.steps.find((s) => s.e === e)?.d.replace("plan-", "");
+    const last = (e) => e === now.stages.length - 1 || of(e + 1) !== of(e);
     const title = document.querySelector("h1").innerHTML;
     let count = 0;
     const printedFigure = ({ svg, caption }) => {
@@ -80,7 +81,7 @@
     };
     const stages = now.stages.map((number, e) => {
       const stage = data.stages[number], steps = now.steps.filter((s) => s.e === e);
-      const own = last(e) ? now.figures.filter((f) => [steps[0]?.d, `plan-${steps[0]?.d}`].includes(f.name)) : [];
+      const own = last(e) ? now.figures.filter((f) => [of(e), `plan-${of(e)}`].includes(f.name)) : [];
       const items = steps.map((s) => `<li value="${s.n}">${s.html}</li>`).join("");
       return `<div class="together"><h2>${stage.title}</h2>${stage.svg ? `<figure class="equation">${bare(stage.svg)}</figure>` : ""}` +
         `<ol class="steps">${items}</ol></div>` +

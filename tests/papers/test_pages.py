@@ -114,6 +114,13 @@ def test_steps_on_a_velocity_plan_stand_under_its_name():
     assert ["Velocity plan", "Plan of tangential accelerations"] == titles
 
 
+def test_a_velocity_plan_is_stepped_through_line_by_line():
+    (position,) = _data(_page(handout("gears-epicyclic", positions=1, formats=("html",))))["positions"]
+    shown = [s["n"] for s in position["steps"] if s["d"] == "plan-velocity"]
+    (plan,) = (f["svg"] for f in position["figures"] if f["name"] == "plan-velocity")
+    assert [7, 8, 9, 10] == shown == [*map(int, re.findall(r'class="plan-line step-(\d+)"', plan))]
+
+
 @pytest.fixture(scope="module")
 def found_later():
     return handout(FOUND_LATER, positions=1, formats=("html",))

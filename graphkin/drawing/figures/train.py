@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
+from typing import TypeAlias
 
 from graphkin.account.headings import number
 from graphkin.construction.board.sheet import Sheet
@@ -15,7 +16,7 @@ from graphkin.construction.trains import CentreLine, TrainPlan
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Line, Primitive, on_page
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, arrow, hatched_line
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
@@ -50,21 +51,34 @@ def train_figure(page: FigurePage) -> Drawing | None:
 def train_pages(page: FigurePage) -> dict[int, Drawing]:
     """The pages of the plans with motion, by the numbers of these."""
     return {
-        number: _page(page, plan) for number, plan in enumerate(page.sheet.trains, 1)
+        number: _page(page, plan, _steps_of(page.sheet, number)) for number, plan in enumerate(page.sheet.trains, 1)
         if any((*plan.velocities.values(), *(line.value for line in plan.lines.values())))
     }  # fmt: skip
 
 
-def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
+Steps: TypeAlias = Mapping[tuple[int, str], int]
+"""The number of the step that draws the line of a link, by line of centres and link."""
+
+
+def _steps_of(sheet: Sheet, number: int) -> Steps:
+    """The steps of a plan, by its number."""
+    lines = (key for key in sheet.trains[number - 1].lines if key[1] in sheet.scene.by_name)
+    steps = (step.number for step in sheet.steps if step.plan == number and step.reason in ("plan", "given on plan"))
+    return dict(zip(lines, steps, strict=True))
+
+
+def _page(page: FigurePage, plan: TrainPlan, steps: Steps) -> Drawing:
     sheet, velocity, name = page.sheet, plan.order == "velocity", PLAN_WORDS[plan.order]
     why = [Phrase("plan reason" if velocity else "plan reason accelerations", pole=_pole(plan))]
     why += [Phrase("plan relative", point=line.still) for line in plan.on if not line.in_frame]
-    rates = _rate_scale(sheet, plan)
+    rates, read = _rate_scale(sheet, plan, steps), _table(page, plan)
     least = min(0.0, *map(foot, plan.lines.values()))
     scale = panel(page.width - TABLE - 4.0, plan.pole + 16.0, lambda room: with_labels(
         moved_piece(rates, complex(PLAN + 4.0 - least - TABLE - 4.0, 7.0)), room))
-    lines = [_train(page, plan, k) for k in range(len(plan.on))]
-    body = column(page.prose(why), *lines, row(_table(page, plan), scale, gap=4.0), gap=GAP)
+    lines = [_train(page, plan, k, steps) for k in range(len(plan.on))]
+    last = max(steps.values())  # until then the table tells what is to be found
+    told = {layer: (Group(things, step=last),) for layer, things in read.piece.layers.items()}
+    body = column(page.prose(why), *lines, row(replace(read, piece=Piece(told)), scale, gap=4.0), gap=GAP)
     size, speed = plan.length / sheet.scene.units.metres, plan.speed / sheet.scene.units.rates.metres
     scales = {"length": size, plan.order: speed, "omega" if velocity else "alpha": plan.turning}
     kind, unit = _rates(plan)
@@ -86,7 +100,7 @@ def _rates(plan: TrainPlan) -> tuple[str, str]:
     return kind, Units().of(KINDS[kind].measure).written
 
 
-def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
+def _train(page: FigurePage, plan: TrainPlan, k: int, steps: Steps) -> Block:
     """A line of centres: the train seen from the side, and the velocities of its points."""
     line, mm = plan.on[k], 1.0 / plan.length
     heights = [spot.height * mm for spot in line.spots]
@@ -95,7 +109,7 @@ def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
     reach = [z.real for _, bar in _bars(plan, k) for z in (bar.a, bar.b)]
     x = PLAN - min(0.0, *reach) if reach else PLAN
     ink = ink_box(seen.drawn)
-    velocities = _velocities(page, plan, k, (ink.right if ink else 0.0) - x)
+    velocities = _velocities(page, plan, k, steps, (ink.right if ink else 0.0) - x)
     whole = joined((seen, moved_piece(velocities, complex(x, 0.0))))
     return page.panel(
         max(heights) - min(heights) + 2 * ROOM,
@@ -103,7 +117,7 @@ def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
     )
 
 
-def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piece:
+def _velocities(page: FigurePage, plan: TrainPlan, k: int, steps: Steps, start: float) -> Piece:
     """The plan over one line of centres, its zero line at x = 0, heights from 0; the heights are carried over from
     ``start``."""
     plate, scene, mm = Plate(), page.sheet.scene, 1.0 / plan.length
@@ -112,6 +126,10 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piec
     low, high = min(heights.values()), max(heights.values())
     plate.line("construction", complex(0.0, low - 4.0), complex(0.0, high + 4.0), strokes.OUTLINE)
     names: dict[float, dict[str, RichText]] = {}
+    first: dict[str, int] = {}  # step by which a velocity is known
+    for (on, link), step in steps.items():
+        for spot in plan.on[k].spots_of(link) if on == k else ():
+            first.setdefault(spot.name, step)
     for spot in plan.on[k].spots:
         x, h = plan.velocities.get((k, spot.name)), heights[spot.name]
         if x is None:
@@ -120,8 +138,8 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piec
         plate.line("construction", complex(start, h), complex(max(0.0, x), h), strokes.OF_CENTRES)
         if abs(x) > SHORT:
             shapes = arrow(on_page(foot), on_page(tip), COMPONENT)
-            plate.put(plan.order, *shapes, id=f"plan-{spot.name}{tag}", classes=("speed",))
-        plate.circle("construction", tip, 0.5, strokes.BLACK)
+            plate.put(plan.order, *shapes, id=f"plan-{spot.name}{tag}", classes=("speed",), step=first.get(spot.name))
+        plate.put("construction", Circle(on_page(tip), 0.5, strokes.BLACK), step=first.get(spot.name))
         names.setdefault(round(h, 3), {})[spot.name] = (
             sign(spot.name) if spot.rolls else page.letters.point(spot.name)
         )
@@ -133,8 +151,9 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, start: float) -> Piec
             colour, a, b = strokes.colour_of_link(scene, link), bar.a, bar.b
             over = 3.0 * (b - a) / abs(b - a)
             line = Line(on_page(a - over), on_page(b + over), strokes.LINK.coloured(colour))
-            plate.put(plan.order, line, id=f"plan-line-{link}{tag}", classes=("plan-line",))
-            plate.name(rich(link, 3.2, bold=True), (a, b), f"label-plan-line-{link}{tag}", colour=colour)
+            step = steps[k, link]
+            plate.put(plan.order, line, id=f"plan-line-{link}{tag}", classes=("plan-line",), step=step)
+            plate.name(rich(link, 3.2, bold=True), (a, b), f"label-plan-line-{link}{tag}", colour=colour, step=step)
     return plate.piece
 
 
@@ -155,7 +174,7 @@ def _pole(plan: TrainPlan) -> str:
     return "H" if "P" in taken else "P"
 
 
-def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
+def _rate_scale(sheet: Sheet, plan: TrainPlan, steps: Steps) -> Piece:
     """Parallels to the lines through the pole, which stands at 0, down to the scale."""
     plate, deep, (kind, _) = Plate(), -1j * plan.pole, _rates(plan)
     shown = _plan_lines(sheet, plan)
@@ -165,15 +184,18 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan) -> Piece:
     plate.circle("construction", 0j, 0.9, strokes.WHITE, strokes.OUTLINE)
     plate.name(rich(sign(_pole(plan)), 3.2), 0j, toward=(1.57,))
     marked: dict[float, list[str]] = {}
+    read_in = {line.link: steps[key] for key, line in plan.lines.items() if line in shown}
     for line in shown:
         at, colour = foot(line) + deep, strokes.colour_of_link(sheet.scene, line.link)
         ray = Line(0j, on_page(at), strokes.RELATIVE.coloured(colour))
-        plate.put(plan.order, ray, id=f"plan-rate-{line.link}", classes=("plan-rate",))
-        plate.line("construction", at + 1.2j, at - 1.2j, strokes.OUTLINE)
+        plate.put(plan.order, ray, id=f"plan-rate-{line.link}", classes=("plan-rate",), step=read_in[line.link])
+        tick = Line(on_page(at + 1.2j), on_page(at - 1.2j), strokes.OUTLINE)
+        plate.put("construction", tick, step=read_in[line.link])
         marked.setdefault(round(foot(line), 2), []).append(line.link)
     for x, links in marked.items():
         names = rich(spaced(", ", (rate(kind, link) for link in links)), 3.0)
-        plate.name(names, x + deep - 1.2j, f"label-plan-rate-{'-'.join(links)}", toward=(-1.57,))
+        plate.name(names, x + deep - 1.2j, f"label-plan-rate-{'-'.join(links)}", toward=(-1.57,),
+                   step=max(read_in[link] for link in links))
     return plate.piece
 
 
