@@ -258,7 +258,7 @@ def test_what_cannot_be_solved_is_told_in_chinese_beside_the_results_too(tmp_pat
     swept = run("sweep", "sixbar-420rpm", "--set", "links.2.length=0.01,0.34", "-o", str(tmp_path), "--lang", "zh")
     assert (3, 0) == (solved.returncode, swept.returncode)
     assert "\n不能装配：构件 4、5" in solved.stdout
-    assert "2 个方案：1 不能装配, 1 可解\n" in swept.stdout
+    assert "2 个方案：1 不能装配、1 可解\n" in swept.stdout
     assert [None, None] == [ENGLISH_WORDS.search(one.stdout.replace(str(tmp_path), "")) for one in (solved, swept)]
 
 

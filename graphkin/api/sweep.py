@@ -36,7 +36,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, have
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, listed, say, word
 
 if TYPE_CHECKING:
     import xarray
@@ -239,10 +239,8 @@ class Swept(OfScene, Result):
         if self.time is not None:
             lines += self.time.lines(self.language)
         if self.over.designs.keys:
-            outcomes = ", ".join(
-                f"{n} {word('status ' + status, self.language)}" for status, n in self.outcomes.items()
-            )
-            solved = Phrase("designs solved", designs=len(self.over.designs), outcomes=outcomes)
+            outcomes = [f"{n} {word(f'status {status}', self.language)}" for status, n in self.outcomes.items()]
+            solved = Phrase("designs solved", designs=len(self.over.designs), outcomes=listed(outcomes))
             lines.append(say(solved, self.language))
         if self.damaged:
             lines.append(say(Phrase("pieces damaged", pieces=self.damaged), self.language))

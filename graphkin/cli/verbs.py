@@ -425,7 +425,9 @@ def _problem_set(given: Given) -> None:
 def scenes(given: Given) -> None:
     """List the scenes that come along, print one, copy one out, or begin a new one."""
     from graphkin import scene as room
+    from graphkin.api.arguments import known_words
 
+    known_words(language=given.lang)
     if given.set and given.new is None:
         raise CallError.of("--set", "without a new scene", "write scenes new kind")
     if given.new is not None:
@@ -460,8 +462,6 @@ def _begin(given: Given, file: Path | None) -> None:
 
 
 def _list(given: Given) -> None:
-    from graphkin.api.arguments import known_words
-    known_words(language=given.lang)
     found = graphkin.scenes()
     if given.json:
         print_json(found.data)

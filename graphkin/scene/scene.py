@@ -638,7 +638,7 @@ def new_scene(kind: str, given: Mapping[str, float]) -> str:
     for name, value in given.items():
         signed = name in ("offset", "angle", "rpm")
         if not math.isfinite(value) or abs(value) > 1e9 or (not signed and value <= 0):
-            wanted = Phrase("a finite number") if signed else Phrase("a length is positive")
+            wanted = "a length is positive" if not signed and value <= 0 else "give a finite number below 1e9"
             problems.append(Problem(name, "found value", wanted, value=f"{value:g}"))
     if problems:
         raise CallError(*problems)

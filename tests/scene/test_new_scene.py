@@ -32,6 +32,9 @@ def test_the_lengths_are_those_that_were_given(tmp_path):
         (["fourbar"], 'graphkin: --new: "fourbar"; did you mean "four-bar"?'),
         (["four-bar", "--set", "krank=1"], 'graphkin: --new four-bar: asks for no "krank"; did you mean "crank"?'),
         (["four-bar", "--set", "crank=-1"], "graphkin: crank: found -1; a length is positive"),
+        (["four-bar", "--set", "rpm=1e9", "--set", "crank=2e9"],
+         "graphkin: crank: found 2e+09; give a finite number below 1e9"),
+        (["four-bar", "--lang", "xx"], 'graphkin: lang: "xx"; known here: en, zh'),
         (["four-bar", "--set", "crank=x"], 'graphkin: --set crank=x: "x" is no number; write --set crank=150'),
     ],
 )
