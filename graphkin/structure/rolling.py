@@ -18,7 +18,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, islice, product
 
-from graphkin.plane import added_up
+from graphkin.plane import added_up, dot
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import HigherPair, Pair, PlacedGear
 from graphkin.structure.model import Coordinate, LargerGroup, RollingRelation, Structure
@@ -125,7 +125,9 @@ def followers_of(
         follower = Driver(name, frame, start or 0.0, rate, second, ratios=tuple(map(float, ratios)), through=through)
         if kind == "travel":
             slide = next(s for s in slides if s.key == name)
-            follower = replace(follower, link=slide.a, relative_to=slide.b, slide=name)
+            if start is None and slide.b == frame and slide.pin in scene.sketch:
+                start = dot(scene.sketch[slide.pin] - slide.guide.through, slide.guide.direction)
+            follower = replace(follower, link=slide.a, relative_to=slide.b, slide=name, value=start or 0.0)
         elif start is None:
             follower = replace(follower, value=drawn_angle(scene, links[name]) or 0.0)
         followers.append(follower)

@@ -291,3 +291,15 @@ def test_the_forces_at_contacts_and_teeth_do_no_work(scene):
     assert solved.ok
     left, largest = solved.forces.power
     assert np.zeros(12) == pytest.approx(left / largest, abs=1e-9)
+
+
+def test_a_wheel_on_a_rail_of_the_frame_stands_where_it_is_sketched():
+    scene = {
+        "frame": {"guides": {"rail": {"through": [0, 0], "angle": 0}}},
+        "links": {"1": {"points": ["C", "P"], "length": 20, "discs": {"w": {"centre": "C", "r": 30}}}},
+        "contacts": {"K": {"between": ["1.w", "0.rail"], "rolling": True}},
+        "driver": {"link": "1", "angle": 90, "omega": -2},
+        "sketch": {"C": [75, 28]},
+    }
+    [position] = solve(scene).data["positions"]
+    assert [75, 30] == pytest.approx(position["points"]["C@1"]["position"])
