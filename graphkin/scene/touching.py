@@ -26,6 +26,8 @@ from graphkin.words import Phrase, joined
 
 AGREE = 1e-6
 """Of the greater length: so far a given offset may lie from that which the guide makes."""
+ROUNDING = 1e-12
+"""Of the way along the guide: a smaller offset is rounding alone."""
 
 
 def touching_of(reading: Reading, discs: Discs) -> tuple[PlacedContact | PlacedGear, ...]:
@@ -359,6 +361,8 @@ def _sliding(where: str, si: Cam, reading: Reading, axis: complex, line: Line) -
                     offset=f"{si.offset / metres:g}", other=f"{offset / metres:.9g}")
         return None
     travel = dot(along, axis - through)
+    if abs(offset) < ROUNDING * abs(axis - through):
+        offset = 0.0
     return SlidingFollower(pair, through + along * travel, along, travel, offset)
 
 

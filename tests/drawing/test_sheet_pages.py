@@ -267,3 +267,15 @@ def test_a_cam_larger_than_its_panel_is_cut_at_the_edge():
     assert 10 < len(outline)
     low = max(z.imag for z in outline)
     assert 2 <= sum(abs(z.imag - low) < 1e-9 for z in outline)  # it ends at the edge of the panel
+
+
+def test_numbers_of_the_divisions_of_a_short_fall_keep_off_each_other(violations):
+    scene = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"v": {"through": [0, 0], "angle": 90}}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.v"}},
+        "cams": {"1": {"follower": "2", "base": {"r": 40}, "roller": 6, "law": [
+            {"to": 80, "rise": 20, "by": "345"}, {"to": 245}, {"to": 260, "fall": 20, "by": "cycloidal"},
+            {"to": 360}]}},
+        "driver": {"link": "1", "angle": 20, "omega": 5},
+    }  # fmt: skip
+    assert [] == violations(draw(scene, figures=["cam"]).figures["cam"].content("svg"))

@@ -97,3 +97,16 @@ def test_a_seam_belongs_to_the_later_piece():
     law = FollowerLaw((LiftPiece(0.0, 2.0, 0.0, 3.0, "uniform"), LiftPiece(2.0, math.tau, 3.0, 0.0, "uniform")))
     assert -3.0 / (math.tau - 2.0) == law.at(2.0 - 1e-14).slope
     assert 1.5 == law.at(-1e-14).slope
+
+
+def test_a_guide_through_the_axis_has_no_offset_but_rounding():
+    along, axis = math.radians(33), [16, -1.2]
+    through = [axis[0] - 13.6 * math.cos(along), axis[1] - 13.6 * math.sin(along)]
+    made = {
+        "frame": {"points": {"A": axis}, "guides": {"v": {"through": through, "angle": 33}}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.v"}},
+        "cams": {"1": {"follower": "2", "base": {"r": 40}, "law": [
+            {"to": 180, "rise": 20, "by": "345"}, {"to": 360, "fall": 20, "by": "cycloidal"}]}},
+        "driver": {"link": "1", "angle": 20, "omega": 5},
+    }  # fmt: skip
+    assert 0.0 == mechanism_of(made).cams[0].motion.offset

@@ -327,6 +327,7 @@ GUTTER = 8.0  # mm between columns of the table
 CAM_PANEL = (150.0, 140.0)
 """mm that the cam may fill."""
 SMALL = 2.4
+NUMBERS_APART = 0.2  # mm, to either side of a number
 LONG = 180.0
 """mm for a turn of the cam in the diagram."""
 HIGH = (16.0, 40.0)
@@ -459,11 +460,14 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
                               Line(origin, top - 5.0j, strokes.DIMENSION)]  # fmt: skip
     labels: list[Primitive] = []
     divided = [] if begun else [(d.degree, d.lift, str(k)) for k, d in enumerate(divisions(sheet))]
+    free = 0.0  # of numbers, from here on
     for degree, lift, name in (*divided, *((TURN, lift, "") for _, lift, _ in divided[:1])):
-        foot = at(degree, law.least)
+        foot, written = at(degree, law.least), plain(name, SMALL)
         drawn.append(Line(foot, at(degree, lift), strokes.CONSTRUCTION))
-        if name:
-            cell(foot + 3.2j, plain(name, SMALL))
+        half = runs_width(written) / 2 + NUMBERS_APART
+        if name and foot.real - half >= free:
+            cell(foot + 3.2j, written)
+            free = foot.real + half
     for piece in law.pieces:
         start, end = at(piece.start, law.least) + 6.8j, at(piece.end, law.least) + 6.8j
         short = f"{number(math.degrees(piece.end - piece.start))}°"
