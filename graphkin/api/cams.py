@@ -17,7 +17,7 @@ from graphkin.api.results import OfScene, Result
 from graphkin.checking.closed_form import CamPoints, compare_cam
 from graphkin.construction import Sheet
 from graphkin.construction.cam_sheet import divisions
-from graphkin.errors import CallError, unfit
+from graphkin.errors import CallError, Disagreement, Problem, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import LawCam
@@ -50,10 +50,23 @@ class CamMade:
 
     @cached_property
     def sheet(self) -> Sheet:
-        """The construction at the scale of its figure."""
+        """The construction at the scale of its figure.
+
+        Raises
+        ------
+        Disagreement : it is not the computed cam
+        """
         from graphkin.drawing.figures.constructions import scaled_cam
 
-        return scaled_cam(self.mechanism, self.cam)
+        sheet = scaled_cam(self.mechanism, self.cam)
+        off = compare_cam(self.cam, sheet)
+        if not off.ok:
+            most = f"{max(off.pitch, off.profile, 0.0 if self._swings else off.lift) / self.mechanism.units.metres:.3g}"
+            angle = f"{math.degrees(max(off.pressure, off.lift if self._swings else 0.0)):.3g}"
+            found = Phrase("is drawn off the computed cam", most=most, unit=self.mechanism.units.length, angle=angle)
+            said = Phrase("no paper is written please report this scene")
+            raise Disagreement(Problem(f"cams.{self.cam.link}", found, said))
+        return sheet
 
     @cached_property
     def drawn(self) -> CamPoints:
@@ -179,7 +192,7 @@ class CamMade:
                 for k, d in enumerate(divisions(self.sheet))
             ],
             "drawn": {"pitch": self.drawn.pitch / metres, "profile": self.drawn.profile / metres,
-                      "pressure": self.drawn.pressure, "ok": self.drawn.ok},
+                      "pressure": self.drawn.pressure, "lift": self.drawn.lift / lift, "ok": self.drawn.ok},
         }  # fmt: skip
 
     def figure(self, language: str) -> Drawing:

@@ -81,11 +81,13 @@ def compare_lengths(
 
 @dataclass(frozen=True)
 class CamPoints:
-    """The differences between drawn and computed points of a cam (m), normals and pressure angles (rad)."""
+    """The differences between drawn and computed points of a cam (m), its pressure angles (rad), and its lifts as read
+    (m, of a swinging follower rad)."""
 
     pitch: float
     profile: float
     pressure: float
+    lift: float
     ok: bool
 
 
@@ -98,7 +100,9 @@ def compare_cam(cam: LawCam, sheet: Sheet) -> CamPoints:
     angle = np.array([d.pressure for d in drawn])
     deviations = float(np.abs(point - exact.pitch).max()), float(np.abs(contact - exact.profile).max())
     turned = float(np.abs(angle - exact.pressure).max())
-    return CamPoints(*deviations, turned, max(*deviations) <= AGREES * cam.base and turned <= AGREES)
+    lift = max(abs(d.lift - cam.law.at(d.degree).lift) for d in drawn)
+    agrees = max(*deviations) <= AGREES * cam.base and turned <= AGREES
+    return CamPoints(*deviations, turned, lift, agrees and lift <= AGREES * (1.0 if cam.turns else cam.base))
 
 
 def predict_cam(cam: LawCam, sheet: Sheet, name: str, tools: Tools) -> Sequence[Mapping[str, float]]:

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import cmath
 import io
 import json
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import graphkin
 from graphkin.checking.closed_form import compare_cam
+from graphkin.construction import cam_sheet as cam_module
 from graphkin.construction.cam_sheet import cam_sheet
-from graphkin.errors import CallError
+from graphkin.errors import CallError, Disagreement
 from graphkin.scene import mechanism_of
 from graphkin.solver.cams import cam_at, study_cam
 from tests.command import run
@@ -294,3 +297,20 @@ def test_the_command_writes_the_points_of_a_disc_and_says_so(name, tmp_path):
 def test_the_offset_of_a_flat_follower_is_the_distance_of_its_guide_from_the_axis():
     beside = graphkin.read("cam-eccentric-flat-slider").replace("frame.guides.g.through", [7, 3])
     assert 7 == pytest.approx(graphkin.cam(beside).data["discs"]["K"]["offset"], abs=1e-12)
+
+
+@pytest.mark.parametrize("name", ["cam-offset-roller", "cam-flat-face", "cam-swinging-roller"])
+@pytest.mark.parametrize("part", ["point", "way", "lift"])
+@pytest.mark.parametrize("draw", [graphkin.draw, graphkin.cam], ids=["draw", "cam"])
+def test_a_cam_drawn_off_by_a_tenth_of_a_degree_or_a_thousandth_is_not_written(draw, part, name, monkeypatch, tmp_path):
+    drawn = cam_module.division
+
+    def off(*given):
+        made = drawn(*given)
+        value = getattr(made, part)
+        return replace(made, **{part: value * (cmath.rect(1.0, math.radians(0.1)) if part != "lift" else 1.001)})
+
+    monkeypatch.setattr(cam_module, "division", off)
+    with pytest.raises(Disagreement, match=r"cams\.1: its drawing by inversion is off the computed cam"):
+        draw(name).write(tmp_path / "out")
+    assert not (tmp_path / "out").exists()
