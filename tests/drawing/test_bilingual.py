@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from graphkin import cam, centres, design, draw
+from graphkin import cam, centres, centrodes, design, draw
 from graphkin.drawing import Text
 from graphkin.drawing.ink.primitives import walk
 from graphkin.words import Neutral, Phrase, in_all, rich_text
@@ -98,3 +98,13 @@ def test_the_words_beside_the_equations_stand_in_both_languages(name, english, c
     shown = texts(draw(name, language="both", figures=("sheet",)).figures["sheet"])
     said = re.sub(r"\s", "", "".join(shown))
     assert [True, True] == [english in said, chinese in said]
+
+
+def test_the_legend_of_centrodes_stands_in_both_languages():
+    said = re.sub(r"\s", "", "".join(texts(centrodes("four-bar-coupler-point", link="2", language="both").figure)))
+    assert [True, True] == ["fixedcentrode" in said, "定瞬心线" in said]
+
+
+def test_a_further_page_of_forces_is_numbered_in_both_languages():
+    second = draw("shaper-forces", language="both", figures=("forces",)).figures["forces"].further[0]
+    assert "Sheet 2 第 2 页" in texts(second)

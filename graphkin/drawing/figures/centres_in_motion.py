@@ -23,7 +23,7 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined
 from graphkin.drawing.plate import centred
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.words import Phrase, languages, say
+from graphkin.words import languages, word
 from graphkin.words.symbols import RichText
 
 ROOM, KEY = 8.0, 17.0  # mm around the figure, and of a line in the legend
@@ -177,17 +177,17 @@ def centrodes_figure(
     page = page.wide_enough(content.width + 2 * ROOM)
     whole = joined((back, Piece({"centres": groups}, names)))
     figure = centred(content, page.width, content.height + 2 * ROOM, lambda around: whole)
-    legend = [(say(Phrase(key, **gaps), languages(page.language)[0]), stroke)
-              for key, _, stroke, branches, gaps in kinds if branches]  # fmt: skip
+    legend = [(page.said(key, **gaps), stroke) for key, _, stroke, branches, gaps in kinds if branches]
     keys = [
         row(Block(Piece({"labels": (Line(2.2j, KEY - 3.0 + 2.2j, stroke),)}), 0.0, KEY),
-            prose((said,), page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend
+            prose(said, page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend
     ]  # fmt: skip
-    end = punctuation("full stop", page.language) + punctuation("between sentences", page.language)
+    first = languages(page.language)[0]
+    end = word("full stop", first) + word("between sentences", first)
     return page.drawing(
         page.at_drivers(f"{page.term('centrodes')} {link}"),
         column(figure, *keys), page.scale("mechanism"), title="centrodes",
-        said="".join(said + end for said, _ in legend).strip(),
+        said="".join(str(said[0]) + end for said, _ in legend).strip(),
     )  # fmt: skip
 
 

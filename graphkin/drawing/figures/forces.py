@@ -53,7 +53,7 @@ from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, bodies_named, languages, rich_text, say, word
+from graphkin.words import Phrase, bodies_named, languages, rich_text, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import printed
 
@@ -87,7 +87,7 @@ def forces_figure(page: FigurePage, report: Report | None = None) -> Drawing:
     first, *further = (
         page.drawing(
             below, body, page.scale("force"), title="forces", said=page.said("force described")[0], height=height,
-            note=say(Phrase("sheet number", number=number), languages(page.language)[0]) if number > 1 else "",
+            note=" ".join(map(str, page.said("sheet number", number=number))) if number > 1 else "",
             metadata={"scales": {name: float(f"{per:.12g}") for name, per in scales.items()}},
         ) for number, body in enumerate(pages(blocks, room, APART), 1)
     )  # fmt: skip

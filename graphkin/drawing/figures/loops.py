@@ -178,7 +178,8 @@ def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[Wor
         gap_named = Phrase("loop open", loop=loop.name, gap=size)
         yield from ((text, False) for text in in_all(gap_named, page.language))
     if loop.root is not None:
-        yield root(loop.root, scene, languages(page.language)[0]), False
+        every = dict.fromkeys(root(loop.root, scene, each) for each in languages(page.language))
+        yield from ((text, False) for text in every)
 
 
 def _matrix(matrix: MatrixEquation, room: float) -> Block:

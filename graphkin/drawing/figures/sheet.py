@@ -276,7 +276,7 @@ def continuation(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing
     made: list[Drawing] = []
     while rest:
         number, before = len(made) + 2, rest
-        said = say(Phrase("sheet number", number=number), languages(page.language)[0])
+        said = " ".join(map(str, page.said("sheet number", number=number)))
         corner = _below(frame, plain(said, 2.6), "end")
         pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), "continuation")
         size = frame.left + frame.right, frame.top + frame.bottom
