@@ -105,8 +105,8 @@ class Label:
 class Places(NamedTuple):
     """Places of boxes, as arrays whose last dimension they are.
 
-    forms : x and y of middles, half sizes, feet on the marks, tips of leaders (the feet without a leader), shape
-        (2, 4, places) (mm)
+    forms : middles, half sizes, feet on the marks, tips of leaders (the feet without a leader), each with x and y in
+        rows, shape (4, 2, places) (mm)
     costs : in looks (mm)
     gaps : distances from the marks (mm)
     bad : whether a dashed line runs through the box, or its leader crosses strokes that leaders should avoid
@@ -130,32 +130,32 @@ LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
 
 def outlined(forms: Floats, space: tuple[float, float]) -> Floats:
-    """Forms of `Places`, followed by the lower and the higher corners of upright boxes, shape (2, 20, places) (mm).
+    """Forms of `Places`, followed by the lower and the higher corners of upright boxes, shape (20, 2, places) (mm).
 
     Four are of what may meet another label (its box with a space, across and down, its leader, its box with
     `LEADER_SPACE`, its leader), four of what that meets in turn (box, box with `LEADER_SPACE`, leader, leader).  A
     missing leader is nowhere (nan).
     """
-    middles, halves, feet, tips = forms.swapaxes(0, 1)
+    middles, halves, feet, tips = forms
     led = (feet != tips).any(axis=0)
-    outlines = np.empty((2, 20, forms.shape[2]))
-    outlines[:, :4] = forms
+    outlines = np.empty((20, 2, forms.shape[2]))
+    outlines[:4] = forms
     for sign, places in ((-1.0, (4, 12)), (1.0, (8, 16))):
         bound, (ones, others) = np.minimum if sign < 0 else np.maximum, places
-        outlines[:, ones] = middles + sign * (halves + np.array(space)[:, None])
-        outlines[:, others] = middles + sign * halves
-        outlines[:, ones + 2] = outlines[:, others + 1] = middles + sign * (halves + LEADER_SPACE)
+        outlines[ones] = middles + sign * (halves + np.array(space)[:, None])
+        outlines[others] = middles + sign * halves
+        outlines[ones + 2] = outlines[others + 1] = middles + sign * (halves + LEADER_SPACE)
         leader = np.where(led, bound(feet, tips), np.nan)
-        outlines[:, ones + 1] = outlines[:, ones + 3] = outlines[:, others + 2] = outlines[:, others + 3] = leader
+        outlines[ones + 1] = outlines[ones + 3] = outlines[others + 2] = outlines[others + 3] = leader
     return outlines
 
 
 def intersections(ones: Floats, others: Floats) -> Flags:
     """Whether labels, in rows, meet others, in columns, both as `outlined`: they come nearer than the space, or the
     leader of one runs over the box of the other, or nearly, or crosses its leader.  Nowhere (nan) is met by none."""
-    near = ones[:, 4:8, :, None] <= others[:, 16:20, None]
-    near &= ones[:, 8:12, :, None] >= others[:, 12:16, None]
-    near = near[0] & near[1]
+    near = ones[4:8, :, :, None] <= others[16:20, :, None]
+    near &= ones[8:12, :, :, None] >= others[12:16, :, None]
+    near = near[:, 0] & near[:, 1]
     met: Flags = near[0]
     pairs = (near[1:] > met).ravel().nonzero()[0]
     if pairs.size:
@@ -163,13 +163,16 @@ def intersections(ones: Floats, others: Floats) -> Flags:
         first, last = pairs.searchsorted((met.size, 2 * met.size)).tolist()
         pairs %= met.size
         row = pairs // met.shape[1]
-        one, other = ones[:, :4].take(row, axis=2), others[:, :4].take(pairs - row * met.shape[1], axis=2)
-        leads = np.concatenate((one[:, 2:, :first], other[:, 2:, first:last]), axis=2)
-        boxes = np.concatenate((other[:, :2, :first], one[:, :2, first:last]), axis=2)
-        foot, along = leads[:, 0], leads[:, 1] - leads[:, 0]
+        column = pairs - row * met.shape[1]
         hit = np.empty(len(pairs), dtype=bool)
-        hit[:last] = ~separated(boxes[:, 0] - foot, boxes[:, 1] + LEADER_SPACE, along)
-        hit[last:] = crosses(*(ends[:, k, last:] for ends in (one, other) for k in (2, 3)))
+        if last:
+            box_one, box_other = ones[:2].take(row[first:last], axis=2), others[:2].take(column[:first], axis=2)
+            led_one, led_other = ones[2:4].take(row[:first], axis=2), others[2:4].take(column[first:last], axis=2)
+            middles, halves = np.concatenate((box_other, box_one), axis=2)
+            feet, tips = np.concatenate((led_one, led_other), axis=2)
+            hit[:last] = ~separated(middles - feet, halves + LEADER_SPACE, tips - feet)
+        if last < len(pairs):
+            hit[last:] = crosses(ones[2:4].take(row[last:], axis=2), others[2:4].take(column[last:], axis=2))
         met.ravel()[pairs[hit]] = True
     return met
 
@@ -200,7 +203,7 @@ class LabelPanel:
         self.labels, self.panel = labels, panel
         self.texts = [label.text for label in labels]
         self.keys: dict[int, int] = {}  # the request for the key of a label
-        nowhere = np.full((2, 4, 2), np.nan), np.zeros(2), np.zeros(2), np.zeros(2, dtype=bool), np.full(2, -1)
+        nowhere = np.full((4, 2, 2), np.nan), np.zeros(2), np.zeros(2), np.zeros(2, dtype=bool), np.full(2, -1)
         self.places, self.numbers = Places(*nowhere), dict[int, Indices]()
         writing, thick = set(obstacles.writing), set(obstacles.thick)
         areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
@@ -290,7 +293,7 @@ class LabelPanel:
         hold = np.minimum(np.maximum(1.6 * reach, -half), half)  # faster than clip
         middles = feet + gaps * way + np.where(which >= len(WAYS), np.abs(reach).sum(axis=0) * way, hold)
         costs = gaps + self.disliked[owners, which] + OFF_MIDDLE * np.abs(shares - 0.5)
-        forms = np.stack((middles, half, feet, feet), axis=1)
+        forms = np.stack((middles, half, feet, feet))
         return Places(forms, costs, gaps, np.zeros(len(gaps), dtype=bool), owners)
 
     def everywhere(self, request: int) -> Places:
@@ -305,7 +308,7 @@ class LabelPanel:
         if not keep:
             places = places.picked(np.flatnonzero(faults == 0))
             faults = np.zeros(len(places.costs), dtype=int)
-        which, what = self._touched(places.forms[:, 0], places.forms[:, 1] + CLEARANCE, keep)
+        which, what = self._touched(places.forms[0], places.forms[1] + CLEARANCE, keep)
         np.add.at(faults, which[what < self.solid], 1)
         dashed = which[what >= self.solid]
         np.add.at(places.costs, dashed, DASHED_COST)
@@ -325,11 +328,11 @@ class LabelPanel:
     def _lead(self, places: Places, led: Flags) -> None:
         """Add the leaders of some places, with their cost."""
         some = led.nonzero()[0]
-        middles, halves, feet, _ = places.forms.take(some, axis=-1).swapaxes(0, 1)
+        middles, halves, feet = places.forms[:3].take(some, axis=2)
         owners = self.own.take(places.owners.take(some))
         way = _gap(middles - feet, halves)
         length = np.maximum(np.hypot(*way), 1e-9)
-        places.forms[:, 3, some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
+        places.forms[3][:, some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
         crossed, heaviest = self._crossed(feet, feet + way / length * FOOT_REACH, to)
         marks = self.mark_start.take(owners, axis=1), self.mark_end.take(owners, axis=1)
         nearest = np.minimum(*(np.hypot(*(ends - feet)) for ends in marks))
@@ -343,17 +346,17 @@ class LabelPanel:
         if not start.size:
             return
         some = (~led & (places.gaps > BESIDE) & self.mark_is_point[self.own[places.owners]]).nonzero()[0]
-        middles, halves, feet, _ = places.forms.take(some, axis=-1).swapaxes(0, 1)
+        middles, halves, feet = places.forms[:3].take(some, axis=2)
         way = _gap(middles - feet, halves)
         first, last = feet + way / np.maximum(np.hypot(*way), 1e-9) * FOOT_REACH, feet + way
         which, what = joined(near(sides_around(first, last), sides_around(start, end)))
-        over = touching(first[:, which], last[:, which], start[:, what], end[:, what])
+        over = touching(np.stack((first, last)).take(which, axis=2), np.stack((start, end)).take(what, axis=2))
         behind = np.zeros(len(some), dtype=bool)
         behind[which[over]] = True
         places.costs[some[behind]] += BEYOND_COST
 
     def _outside(self, places: Places) -> Flags:
-        left, top, right, bottom = sides(places.forms[:, 0], places.forms[:, 1])
+        left, top, right, bottom = sides(*places.forms[:2])
         outside: Flags = (left < self.panel.left) | (right > self.panel.right)
         outside |= (top < self.panel.top) | (bottom > self.panel.bottom)
         return outside
@@ -378,7 +381,7 @@ class LabelPanel:
         own."""
         led: Flags = places.gaps > LEADER_FROM
         close = (~led).nonzero()[0]
-        middles, halves, _, _ = places.forms.take(close, axis=-1).swapaxes(0, 1)
+        middles, halves = places.forms[:2].take(close, axis=2)
         own, reach = self.own[places.owners[close]], halves + (places.gaps[close] + NEARER)
         which, what = joined(near(sides(middles, reach), sides_around(self.mark_start, self.mark_end)))
         mine, is_point = own.take(which), self.mark_is_point
@@ -394,19 +397,19 @@ class LabelPanel:
         """The weight of the strokes that each leader crosses, and the greatest single weight: areas are joints and
         arrowheads, or writing."""
         whole, heaviest = np.zeros((2, feet.shape[1]))
+        leaders, strokes = np.stack((start, to)), np.stack((self.start, self.end))
         for which, what in near(sides_around(start, to), self.reach):
-            a, b = start.take(which, axis=1), to.take(which, axis=1)
-            c, d = self.start.take(what, axis=1), self.end.take(what, axis=1)
-            over = np.zeros(len(what))
-            over[touching(a, b, c, d)] = 1.0
+            leader, stroke = leaders.take(which, axis=2), strokes.take(what, axis=2)
+            over = touching(leader, stroke).astype(float)
             areas = (what < self.areas).nonzero()[0]  # a leader over an area crosses one of its diagonals
-            a, b, c, d = (ends.take(areas, axis=1) for ends in (a, b, c, d))
+            low, high = stroke.take(areas, axis=2)
             foot = feet.take(which.take(areas), axis=1)
-            own = ((c <= foot) & (foot <= d)).all(axis=0)
+            own = ((low <= foot) & (foot <= high)).all(axis=0)
             written = self.weights.take(what.take(areas)) >= FORBIDDEN  # a foot under writing is no place for it
-            other = np.array((c[0], d[1])), np.array((d[0], c[1]))
-            over[areas] = np.where(own, written, over.take(areas) + crosses(a, b, *other))
-            over *= self.weights.take(what)
+            other = np.array(((low[0], high[1]), (high[0], low[1])))
+            over[areas] = np.where(own, written, over.take(areas) + crosses(leader.take(areas, axis=2), other))
+            hit = (over > 0.0).nonzero()[0]  # faster than of numbers
+            which, over = which.take(hit), over.take(hit) * self.weights.take(what.take(hit))
             whole += np.bincount(which, over, len(whole))
             np.maximum.at(heaviest, which, over)
         return whole, heaviest

@@ -133,26 +133,25 @@ def meets(segments: Points, centres: Points, half: Points) -> tuple[Indices, Ind
     return which[met], what[met]
 
 
-def crosses(a: Floats, b: Floats, c: Floats, d: Floats) -> Flags:
-    """Whether lines from a to b cross lines from c to d between their ends, all in rows."""
-    crossed: Flags = (_off(a, b, c, d) < 0) & (_off(c, d, a, b) < 0)
+def crosses(lines: Floats, others: Floats) -> Flags:
+    """Whether lines cross others between their ends, both by starts and ends, each in rows, shape (2, 2, lines)."""
+    crossed: Flags = (_off(lines, others) < 0) & (_off(others, lines) < 0)
     return crossed
 
 
-def touching(a: Floats, b: Floats, c: Floats, d: Floats) -> Indices:
-    """Whether lines from a to b cross lines from c to d between their ends, or one ends on the other."""
-    some = (_off(a, b, c, d) <= ON_LINE).nonzero()[0]  # few: only these are looked at from the other side
-    both = _off(*(ends.take(some, axis=1) for ends in (c, d, a, b))) <= ON_LINE
-    touched: Indices = some[both]
+def touching(lines: Floats, others: Floats) -> Flags:
+    """Whether lines cross others between their ends, or one ends on the other; shapes as for `crosses`."""
+    touched: Flags = (_off(lines, others) <= ON_LINE) & (_off(others, lines) <= ON_LINE)
     return touched
 
 
-def _off(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
-    """Negative where points a and b lie on either side of the endless lines through c and d."""
-    x, y = d - c
-    (a_x, a_y), (b_x, b_y) = a - c, b - c
-    areas: Floats = (x * a_y - y * a_x) * (x * b_y - y * b_x)
-    return areas
+def _off(ends: Floats, lines: Floats) -> Floats:
+    """Negative where two ends lie on either side of an endless line."""
+    x, y = lines[1] - lines[0]
+    offset = ends - lines[0]
+    areas: Floats = x * offset[:, 1] - y * offset[:, 0]
+    product: Floats = areas[0] * areas[1]
+    return product
 
 
 @dataclass(frozen=True)

@@ -75,7 +75,7 @@ class Placement:
         self.stands, self.paid = [NOWHERE] * len(labels), [*self.lacking]
         self.met, self.moved = np.empty((len(labels), 0), dtype=bool), set[int]()
         self.telling = False  # whether a list may tell labels by their ends
-        self.outlines = np.empty((2, 20, 0))
+        self.outlines = np.empty((20, 2, 0))
         self._list_places()
         order = ((label.rank >= DISPENSABLE, len(self.numbers[i]), i) for i, label in enumerate(labels))
         if labels:
@@ -105,7 +105,7 @@ class Placement:
         """The labels at their places, in their order."""
         some = [i for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD)]
         places = np.array([self.stands[i] for i in some], dtype=np.intp)
-        forms = self.panel.places.forms.take(places, axis=2).T.tolist()
+        forms = self.panel.places.forms.take(places, axis=2).transpose(2, 0, 1).tolist()
         return tuple(map(self._placed, some, self.panel.places.owners.take(places).tolist(), forms))
 
     def _placed(self, i: int, request: int, form: Sequence[Sequence[float]]) -> Placed:
