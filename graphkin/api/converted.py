@@ -161,7 +161,7 @@ def _bodies(scene: Mechanism) -> Bodies:
         if driver.turns_about(scene.frame.name):
             made.drive(driver.link, driver.rate)
             if driver.second and driver.law is None:
-                made.left.append(Phrase("lost acceleration", link=driver.link))
+                made.lost.append(Phrase("lost acceleration", link=driver.link))
         else:
             made.lost.append(Phrase("lost driver", name=driver.key))
     return made

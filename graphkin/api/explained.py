@@ -201,6 +201,9 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
                 yield Phrase("explained turning", point=point, links=listed(own))
             else:
                 yield Phrase("explained turnings", point=point, links=listed(own), number=len(own) - 1)
+        for name in holders if own else ():
+            if name not in counted:
+                yield Phrase("explained uncounted", point=point, links=listed([own[0], name]), link=name)
     yield from (told(pair, "explained") for pair in scene.pairs)
 
 

@@ -280,3 +280,18 @@ def test_a_step_calls_no_block_a_link_that_only_stands_for_a_pin_or_a_contact(sc
     account = Account(checked.sheet, notation_of(checked.sheet, "us"))
     told = [str(telling(account, step).sentence("en")) for step in checked.sheet.steps]
     assert [] == [sentence for sentence in told if re.search(r"link \w+/", sentence)]
+
+
+def test_the_joints_of_a_link_that_repeats_what_others_hold_are_told_as_not_counted():
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [300, 0], "E": [150, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 100},
+            "2": {"points": ["B", "C"], "length": 300, "at": {"F": [150, 0]}},
+            "3": {"points": ["D", "C"], "length": 100},
+            "4": {"points": ["E", "F"], "length": 100, "redundant": True},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 10},
+    }
+    told = graphkin.explain(scene).text
+    assert ["E joins the links 0, 4", "F joins the links 2, 4"] == re.findall(r"(\w joins .*): not counted", told)
