@@ -219,6 +219,9 @@ def test_a_list_of_pairs_that_is_too_short_is_refused_in_chinese():
 
 @pytest.mark.parametrize(("said", "name", "text"), [
     ("c：不是 XML：第 1 行第 15 列：标签不配对；请在 Linkage 中重新保存", "c.linkage2", "<linkage2><a></linkage2>"),
+    ("c：不是 pylinkage 的机构：运动副 A 没有位置；请重新保存", "c.json",
+     '{"joints": [{"id": "A", "type": "ground"}], "links": []}'),
+    ("c：不是 pylinkage 的机构：id：没有给出；请重新保存", "c.json", '{"joints": [{"type": "ground"}], "links": []}'),
     ("c：不是 JSON：第 1 行第 2 列（字符 1）：应为双引号中的键名；请在 pylinkage 中重新保存", "c.json", "{"),
 ])  # fmt: skip
 def test_a_file_of_another_program_is_refused_in_chinese(tmp_path, said, name, text):

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.board.answers import answer, language_of
 from graphkin.board.shelf import Shelf
-from graphkin.errors import CallError, Problem, SceneError
+from graphkin.errors import CallError, SceneError
 from graphkin.scene.scene import SceneLike, library, library_text, toml_text, written
 from graphkin.words import LANGUAGES, Phrase, from_others, say
 
@@ -245,10 +245,8 @@ def open_board(scene: SceneLike | None = None) -> AnyWidget:
         try:
             text = "" if scene is None else toml_text(written(scene)[0])
         except (TypeError, ValueError) as error:
-            said = Problem(
-                "scene", Phrase("cannot be written as a file", error=error), Phrase("give texts and numbers")
-            )
-            raise SceneError(said) from None
+            raise SceneError.of("scene", "cannot be written as a file", "give texts and numbers",
+                                error=from_others(error)) from None
     try:
         return _widget_class()(Shelf(draft=text))
     except ImportError:

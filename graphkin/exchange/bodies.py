@@ -58,7 +58,8 @@ class Bodies:
         made = _fresh(kept if kept[:1].isalpha() else f"P{kept}", self.places)
         if not abs(place) <= FARTHEST:
             where = Phrase("point", point=made)
-            raise CallError.of(where, "lies at", "its coordinates are finite numbers", place=place)
+            raise CallError.of(where, "lies at", "its coordinates are finite numbers",
+                               place=f"({place.real:g}, {place.imag:g})")
         self.places[made], self.names[key or name] = place, made
         return made
 

@@ -191,7 +191,12 @@ def read_pylinkage(text: str, title: str) -> Bodies:
         else:
             construct_linkage(made, data["joints"])
     except (KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
-        raise CallError.of(title, "is no mechanism of pylinkage", "save it anew", error=f"{error!r:.100}") from None
+        reason = from_others(error)
+        if isinstance(error, KeyError):
+            reason = Phrase("where and what", where=reason, found=Phrase("is missing"))
+        elif not isinstance(reason, Phrase):
+            reason = type(error).__name__
+        raise CallError.of(title, "is no mechanism of pylinkage", "save it anew", error=reason) from None
     return made
 
 

@@ -384,8 +384,9 @@ def from_others(sentence: Wording | Exception) -> Wording:
     ('没有命令“drw”', '没有权限')
     """
     if isinstance(sentence, Exception):
-        text = str(sentence.args[0] if isinstance(sentence, KeyError) else sentence)
-        sentence = getattr(sentence, "strerror", None) or text
+        first = next(iter(sentence.args), None)
+        text = str(first if isinstance(sentence, KeyError) else sentence)
+        sentence = getattr(sentence, "strerror", None) or (first if isinstance(first, Phrase) else text)
     if not isinstance(sentence, str):
         return sentence
     for key, pattern in _sentences_of_others():
