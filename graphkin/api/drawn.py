@@ -180,6 +180,7 @@ class Drawn(OfScene, Result):
 
 def _centres(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.centred import ROOM, found_centres
+    from graphkin.checking.centres import must_agree
 
     whole = drawn.checked
     # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres
@@ -187,6 +188,7 @@ def _centres(drawn: Drawn) -> tuple[Any, ...]:
     values = {d.key: whole.sheet.drivers[d.key] for d in whole.part.drivers}
     centres = whole.centres
     centres = centres.at(centres.sheet.scales_for(ROOM)) if exact else found_centres(whole.part, values)
+    must_agree(centres, drawn.motion)
     return centres.sheet, centres
 
 

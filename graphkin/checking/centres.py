@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 from graphkin.checking.report import Known, in_unit
 from graphkin.construction.board.projective import normal, wedge
 from graphkin.construction.centres import Centre, Centres, LinkPair
+from graphkin.errors import Disagreement, Problem
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver.quantities import pole
+from graphkin.solver.values import as_drawn
 from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
@@ -92,6 +94,17 @@ def centre_errors(centres: Centres, motion: Motion) -> dict[LinkPair, tuple[floa
     frame = centres.scene.frame.name
     largest = max(_exact_centre(centres, motion, (name, frame))[1] for name in centres.names)
     return {pair: _error(centres, motion, centre, largest) for pair, centre in centres.table.items()}
+
+
+def must_agree(centres: Centres, motion: Motion) -> None:
+    """Raises Disagreement, naming every centre that is out of its allowed distance."""
+    errors = centre_errors(centres, as_drawn(motion, centres.sheet.structure))
+    off = {pair: error for pair, error in errors.items() if error and error[0] > error[1]}
+    said = "no paper is written please report this scene"
+    problems = [Problem(f"P{''.join(pair)}", "lies off its computed place", said, angle=f"{math.degrees(sine):.3g}")
+                for pair, (sine, _) in off.items()]  # fmt: skip
+    if problems:
+        raise Disagreement(*problems)
 
 
 def _exact_centre(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tuple[float, float, float], float]:

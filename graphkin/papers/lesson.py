@@ -13,6 +13,7 @@ import numpy as np
 from graphkin import solver
 from graphkin.account.notation import Notation, notation_of
 from graphkin.account.voice import Account
+from graphkin.checking.centres import must_agree
 from graphkin.checking.readings import report_on
 from graphkin.checking.report import Compared, Report, Uncertainty
 from graphkin.checking.uncertainty import predict
@@ -245,7 +246,10 @@ def views_of(
     views: list[Lesson] = []
     start = given
     for number, (sheet, here) in enumerate(zip(sheets, centres, strict=True)):
-        report = report_on(sheet, solver.solve(structure, at=sheet.drivers))
+        motion = solver.solve(structure, at=sheet.drivers)
+        report = report_on(sheet, motion)
+        if here is not None:
+            must_agree(here, motion)
         if number != given and any(row.ok is False for row in report.rows):
             start -= number < given
         else:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +13,8 @@ import pytest
 import graphkin
 from graphkin.account.notation import notation_of
 from graphkin.api.centred import centrodes, found_centres
+from graphkin.construction import centres as construction_centres
+from graphkin.construction.board.projective import wedge
 from graphkin.construction.board.scales import Room
 from graphkin.construction.centres import Centres
 from graphkin.drawing.box import Box
@@ -31,7 +35,7 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined
 from graphkin.drawing.text import text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_bytes
-from graphkin.errors import CallError
+from graphkin.errors import CallError, Disagreement
 from graphkin.scene import mechanism_of
 
 CLASSROOM = ("fourbar-150-500-300-400", "slider-crank-offset", "shaper-scheme-2", "sixbar-420rpm", "whitworth")
@@ -260,3 +264,18 @@ def test_long_names_of_links_and_points_stand_clear_of_each_other(violations: Ca
     drawing = graphkin.draw(scene, figures=["centres"]).figures["centres"]
     assert [] == violations(drawing.content("svg"))
     assert any("AnchorP" in text.string for text in labels(drawing))
+
+
+@pytest.mark.parametrize("made", [
+    lambda: graphkin.draw("sixbar-420rpm", figures=["centres"]).figures,
+    lambda: graphkin.handout("sixbar-420rpm", formats=("html",), positions=1).files,
+], ids=["draw", "handout"])  # fmt: skip
+def test_centres_whose_lines_are_a_tenth_of_a_degree_off_are_not_written(made, monkeypatch):
+    def turned(a, b):
+        (x, y, w), sine = wedge(a, b)
+        z = complex(x, y) * cmath.rect(1.0, math.radians(0.1))
+        return (z.real, z.imag, w), sine
+
+    monkeypatch.setattr(construction_centres, "wedge", turned)
+    with pytest.raises(Disagreement, match=r"P35: lies 0\.\d+° off its computed place"):
+        made()
