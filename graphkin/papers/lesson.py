@@ -242,7 +242,7 @@ def views_of(
     given = sum(i < start for i in made)
     plans = [made[i] for i in sorted(made)]
     sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
-    centres = _centres(structure, sheets, given, progress)
+    centres = _centres(sheets, given, progress)
     views: list[Lesson] = []
     start = given
     for number, (sheet, here) in enumerate(zip(sheets, centres, strict=True)):
@@ -257,17 +257,16 @@ def views_of(
     return views, start
 
 
-def _centres(
-    structure: Structure, sheets: Sequence[Sheet], given: int, progress: Progress | None
-) -> list[Centres | None]:
-    """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour."""
+def _centres(sheets: Sequence[Sheet], given: int, progress: Progress | None) -> list[Centres | None]:
+    """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour.
+    Bars that replace cams are those of its own position."""
     centres: dict[int, Centres | None] = {}
     for i in (*range(given, len(sheets)), *range(given - 1, -1, -1)):
         near = centres.get(i - 1) if i > given else centres.get(i + 1)
         centres[i] = None
         for start in (near, None) if near is not None else (None,):
             with suppress(Unsolvable):
-                centres[i] = find_centres(structure, sheets[i].drivers, sheet=sheets[i], near=start)
+                centres[i] = find_centres(sheets[i].structure, sheets[i].drivers, sheet=sheets[i], near=start)
                 break
         if progress is not None:
             progress(len(centres), len(sheets))

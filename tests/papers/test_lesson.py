@@ -129,3 +129,17 @@ def test_a_guide_of_a_link_is_on_the_screen_six_tenths_of_the_mechanism_ahead_an
     (start, end), size = guide_in_motion("GUIDE_OVER_CRANK")
     angle = solve(mechanism_of_text(scenes.GUIDE_OVER_CRANK, "guide"), sweep=5).angle("5") + math.radians(140)
     assert 0.69 * size * np.exp(1j * angle) == pytest.approx(end - start, abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["cam-offset-roller", "cam-swinging-roller", "disc-on-disc"])
+def test_in_every_position_of_a_page_the_centres_of_cams_are_those_of_that_position(name):
+    sheet = execute(plan(mechanism_of(name)))
+    views, _ = lesson.views_of(sheet.structure, None, (), "en", "chinese", sheet.scales, 3)
+    assert 3 == len(views)
+    for view in views:
+        at = math.degrees(view.sheet.drivers["1"])
+        there, per_m = graphkin.centres(name, at=at).centres, view.sheet.scales.length
+        for pair, centre in there.table.items():
+            if centre.point is not None:
+                place = centre.point * there.sheet.scales.length
+                assert place == pytest.approx(view.centres.table[pair].point * per_m, abs=1e-9)
