@@ -139,8 +139,6 @@ class CamMade:
         if self.cam.flat:
             radius = self._length(self.cam.base - least, ROUND_UP)
             return Phrase("cam undercut flat", **between, radius=radius, unit=unit)
-        if not self.cam.roller:
-            return Phrase("cam undercut edge", **between)
         most = self._length(max(least + self.cam.roller, 0.0), ROUND_DOWN)
         return Phrase("cam undercut roller", **between, roller=self._length(self.cam.roller), unit=unit, most=most)
 

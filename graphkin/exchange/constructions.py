@@ -141,10 +141,9 @@ def _follow(
         lines[out] = (given[0], given[1])
         if name == "Segment":
             made.bars.append(list(given))
-    elif name == "Polygon" and len(got) > 1:
-        ends = [p for p in given if p in points]
-        made.bars += [[a, b] for a, b in zip(ends, [*ends[1:], *ends[:1]], strict=True)]
-        made.bars.append(ends)
+    elif name == "Polygon" and len(got) > 1:  # of a regular one its sides make the other corners
+        made.bars.append([p for p in (*given, *got) if p in points])
+        made.moving |= {p for p in got if p in points}
     elif name == "Point" and given and out in points and given[0] in circles:
         made.moving.add(out)
         made.bars.append([circles[given[0]], out])
@@ -162,9 +161,9 @@ def _follow(
                     slide(point, curve)
                 else:
                     made.made.lost.append(Phrase("lost curve", curve=curve, point=point))
-    elif name == "Midpoint" and len(given) == 2 and set(given) <= set(points) and out in points:
-        made.moving.add(out)
-        made.bars += [[*given, out]]
+    elif name == "Midpoint" and any({*given} <= {*bar} for bar in (*made.bars, points.keys() - made.moving)):
+        made.bars.append([*given, out])
+        made.moving |= {out} if made.moving & {*given} else set()
     elif name not in ("Slider", "Locus", "Distance", "Angle", "Length", "Text"):
         moved = {p for p in got if p in points}
         (made.made.lost if moved else made.made.left).append(f"{name} {', '.join(filter(None, got))}")
@@ -195,7 +194,7 @@ def construct_linkage(bodies: Bodies, joints: Sequence[Tables]) -> None:
 
     def refer(value: object) -> str:
         if isinstance(value, dict) and "ref" not in value and "x" in value:  # a static one that stands here alone
-            label = f"S{len(bodies.names)}"
+            label = f" S{len(bodies.names)}"  # no joint of the file has this name
             bodies.point(label, complex(float(value["x"]), float(value["y"])))
             fixed.append(label)
             return label

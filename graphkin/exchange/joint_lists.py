@@ -16,7 +16,7 @@ import cmath
 import math
 import re
 from collections.abc import Iterable, Sequence
-from urllib.parse import parse_qs, unquote, urlparse
+from urllib.parse import unquote, unquote_plus
 
 from graphkin.errors import CallError, Problem
 from graphkin.exchange.bodies import FRAME, Bodies, BodySlide, number
@@ -84,11 +84,8 @@ def _payload(text: str) -> str:
 
 def read_table(text: str, title: str) -> Bodies:
     """The bodies of a table of joints.  Raises CallError naming every wrong row."""
-    try:
-        query = parse_qs(urlparse(text.strip()).query)
-    except ValueError:
-        query = {}
-    rows = query["mech"][0].split("|") if "mech" in query else text.replace("|", "\n").splitlines()
+    shared = re.search(r"[?&]mech=([^&#\s]+)", text)
+    rows = (unquote_plus(shared[1]) if shared else text).replace("|", "\n").splitlines()
     made, known, problems = Bodies(title), dict[str, str](), []
     for count, row in enumerate(rows, 1):
         cells = [c for c in re.split(r"[,\t; ]+", row.strip()) if c]

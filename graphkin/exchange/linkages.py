@@ -180,7 +180,9 @@ def read_pylinkage(text: str, title: str) -> Bodies:
     """The bodies of a file.  Raises CallError where it is none."""
     try:
         data = json.loads(text)
-    except (ValueError, RecursionError) as error:
+    except RecursionError:
+        raise CallError.of(title, "is nested too deeply", "save it from pylinkage anew") from None
+    except ValueError as error:
         raise CallError.of(title, "is not json", "save it from pylinkage anew", error=from_others(error)) from None
     if not isinstance(data, dict) or not isinstance(data.get("joints"), list):
         raise CallError.of(title, "has no list of joints", "a file of pylinkage has joints")

@@ -126,7 +126,8 @@ def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
         where, at = f"printed_rows.{number}", row.get("at")
         if not isinstance(at, int | float | str):
             said = Phrase("is missing") if at is None else Phrase("is two numbers")
-            reading.say(f"{where}.at", said, "write the driver's value or the name of")
+            if not reading.lost_under("printed_rows", number - 1, "at"):
+                reading.say(f"{where}.at", said, "write the driver's value or the name of")
         elif isinstance(at, str) and at not in positions:
             unnamed = Phrase("name positions in positions or write a driver")
             wanted = did_you_mean(at, positions) if positions else unnamed

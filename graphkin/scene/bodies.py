@@ -147,7 +147,7 @@ class Reading:
             unsure |= {self.frame.name}
         return frozenset(unsure | {""} if unsure else unsure)
 
-    def lost_under(self, *prefix: str) -> bool:
+    def lost_under(self, *prefix: str | int) -> bool:
         """Whether an entry at or under this path, or a table that holds it, was taken out."""
         n = len(prefix)
         return any(p[:n] == prefix or p == prefix[: len(p)] for p in self.lost)
@@ -265,7 +265,7 @@ def check_own_points(reading: Reading) -> None:
             say(f"{where}.length", Phrase(key, length=f"{link.length:g}", count=len(points)),
                 "a length needs two names in points")
         lost = name in reading.unsure or reading.lost_under("links", name, "on")
-        if not points and link.on is None and not lost:
+        if not points and reading.file.links[name].on is None and not lost:
             say(where, "has neither points nor on so nothing places", "write points a b or on for a")
 
 

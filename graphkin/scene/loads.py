@@ -161,12 +161,13 @@ def _end(reading: Reading, where: str, point: str, link: str) -> str:
     """The link of a spring's end: the given link, or the first link with the point, the frame before others."""
     if not link:
         missing = reading.wrong(reading.no_point(f"{where}.between", point))
-        order = [reading.frame.name, *(n for n, each in reading.links.items() if not each.redundant)]
+        order = [reading.frame.name, *sorted(reading.links, key=lambda name: reading.links[name].redundant)]
         having = [n for n in order if point in reading.places.get(n, {})]
         unread = "" in reading.unsure or any(point in points for points in reading.points.values())
         if not having and not missing and not unread:
             reading.say(f"{where}.between", "is placed on no link", "a point of a link or the frame", point=point)
-        return having[0] if having else ""
+        on = having[0] if having else ""
+        return "" if on != reading.frame.name and on and _not_moving(reading, f"{where}.between", on) else on
     if link != reading.frame.name and _not_moving(reading, f"{where}.links", link):
         return ""
     reading.wrong(reading.no_point_of(f"{where}.links", link, point))

@@ -96,12 +96,9 @@ def parsed(text: str) -> OwnTables:
         raise SceneError.of(
             Phrase("the file"), "is nested too deeply", "a scene needs at most four levels"
         ) from None
-    except ValueError as error:
-        if "int_max_str_digits" in str(error):
-            raise SceneError.of(Phrase("the file"), "is not toml a number of thousands of",
-                                "no number of a scene may exceed 1e") from None
-        raise SceneError.of(Phrase("the file"), "is not toml of message", "see https toml.io",
-                            message=from_others(error)) from None
+    except ValueError:
+        raise SceneError.of(Phrase("the file"), "is not toml a number of thousands of",
+                            "no number of a scene may exceed 1e") from None
 
 
 def _depth(text: str) -> int:

@@ -414,6 +414,17 @@ def test_a_connector_of_linkage_slides_between_two_anchors(tmp_path: Path) -> No
         ("a.ggb", "PK", "a: is no file of GeoGebra"),
         ("a.dwg", "", 'a.dwg: ".dwg" is of no program known here'),
         ("a.json", '{"joints": [], "links": []}', "a: holds no moving link"),
+        ("a.json", "[" * 100_000, "a: is nested too deeply"),
+        ("a.json", '{"joints": [{"id": "b"}], "links": []}',
+         "a: is no mechanism of pylinkage: joint b has no place; save it anew"),
+        ("a.json", '{"joints": [{"type": "Spiral", "name": "C", "joint0": "B"}]}',
+         "a: is no mechanism of pylinkage: joint B is not there"),
+        ("a.pyslvs", "J[]", "a: holds no expression M[...]"),
+        ("a.pyslvs", "M[J[R, P[0, 5], L[]]]", "a: the joint at 0, 5 has no link; write L[ground, link_1]"),
+        ("a.pyslvs", "SQLite format 3", "a.pyslvs: is a data base of an early pyslvs"),
+        ("a.txt", "input ground R 1e300 0\n", "point A: lies at (1e+300, 0); its coordinates are finite numbers"),
+        ("a.txt", "1 2 R 0 0\n2 3 R 1 0\n1 4 P 0 0 0\n2 4 P 0 1 0\n3 4 P 0 2 90\n",
+         "link 4: slides on more than two others"),
     ],
 )
 def test_a_file_that_is_none_is_told_in_a_sentence(name: str, text: str, said: str, tmp_path: Path) -> None:
@@ -458,3 +469,72 @@ def test_a_pin_in_two_slots_is_not_written_with_the_first_of_them_alone(tmp_path
     }  # fmt: skip
     with pytest.raises(CallError, match="slide of 2 on 0: would be lost"):
         convert(scene, out=tmp_path / f"a{ending}")
+
+
+MOVED = [("Circle", "A 2", "c"), ("Point", "c", "B"), ("Circle", "B 4.5", "d"), ("Circle", "D 4.1", "e"),
+         ("Intersect", "d e", "C")]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("command", "bodies"),
+    [
+        (("Polygon", "B C E", "q f g h"), {"0": "AD", "AB": "AB", "BCE": "BCE", "DC": "DC"}),
+        (("Polygon", "B C 3", "q f g E h"), {"0": "AD", "AB": "AB", "BCE": "BCE", "DC": "DC"}),
+        (("Midpoint", "B C", "E"), {"0": "AD", "AB": "AB", "BCE": "BCE", "DC": "DC"}),
+        (("Midpoint", "A D", "E"), {"0": "ADE", "AB": "AB", "BC": "BC", "DC": "DC"}),
+        (("Midpoint", "B D", "E"), {"0": "AD", "AB": "AB", "BC": "BC", "DC": "DC"}),
+    ],
+)
+def test_corners_and_midpoints_of_geogebra_are_points_of_the_body_that_holds_them(command, bodies, tmp_path: Path):
+    def lines(name: str, given: str, got: str) -> str:
+        ends = (" ".join(f'a{k}="{x}"' for k, x in enumerate(some.split())) for some in (given, got))
+        return '<command name="{}"><input {}/><output {}/></command>'.format(name, *ends)
+
+    corner = "E" in command[1] and command[0] == "Polygon"
+    made = [("Circle", "B 3", "u"), ("Circle", "C 3", "w"), ("Intersect", "u w", "E")] if corner else []
+    places = {"A": 0j, "B": 1 + 2j, "C": 5 + 4j, "D": 6 + 0j, "E": 3 + 6j}
+    text = "".join(coordinates(*place) for place in places.items())
+    text += "".join(lines(*c) for c in (*MOVED, *made, command))
+    with zipfile.ZipFile(tmp_path / "a.ggb", "w") as archive:
+        archive.writestr("geogebra.xml", f"<geogebra><construction>{text}</construction></geogebra>")
+    assert bodies == {name: "".join(points) for name, points in read_bodies(str(tmp_path / "a.ggb")).bodies.items()}
+
+
+def test_a_static_joint_of_pylinkage_that_stands_alone_takes_no_other_joint_s_name(tmp_path: Path) -> None:
+    crank = {"type": "Crank", "name": "B", "joint0": {"x": 0, "y": 0}, "distance": 2, "angle": 0.3, "x": 1, "y": 2}
+    dyad = {"type": "Revolute", "name": "S0", "joint0": "B", "joint1": {"x": 6, "y": 0}, "distance0": 4, "distance1": 4}
+    (tmp_path / "a.json").write_text(json.dumps({"joints": [crank, dyad]}))
+    made = read_bodies(str(tmp_path / "a.json"))
+    assert [["S0", "S2"], ["S0", "B"], ["B", "S0x2"], ["S2", "S0x2"]] == [*made.bodies.values()]
+
+
+SLIDER = """<linkage2><connector id="0" x="0" y="0" anchor="true" input="true"/><connector id="1" x="30" y="40"/>
+<connector id="2" x="100" y="0" slider="true" {radius}>{limits}</connector>
+<connector id="3" x="-9" y="0" anchor="true"/>
+<connector id="4" x="200" y="0" anchor="true"/><Link id="0"><connector id="0"/><connector id="1"/></Link>
+<Link id="1"><connector id="1"/><connector id="2"/></Link><Link id="2"><connector id="3"/><connector id="4"/></Link>
+</linkage2>"""
+
+
+@pytest.mark.parametrize(
+    ("radius", "limits", "lost"),
+    [
+        ("", "3", "slider 2 (it has no two limits)"),
+        ('slideradius="50"', "34", "slider 2 (its slot is round)"),
+        ("", "31", "slider 2 (its limits lie on two links)"),
+        ("", "12", "slider 2 (it is a point of the link that guides it)"),
+    ],
+)
+def test_a_slider_of_linkage_that_no_straight_slot_holds_is_lost_by_name(radius, limits, lost, tmp_path: Path):
+    ends = "".join(f'<slidelimit id="{k}"/>' for k in limits)
+    (tmp_path / "a.linkage2").write_text(SLIDER.format(radius=radius, limits=ends))
+    assert [lost] == [*map(str, read_bodies(str(tmp_path / "a.linkage2")).lost)]
+
+
+def test_a_driven_cylinder_of_linkage_goes_out_and_in_once_a_cycle(tmp_path: Path) -> None:
+    (tmp_path / "a.linkage2").write_text("""<linkage2><connector id="0" x="0" y="0" anchor="true"/>
+<connector id="1" x="60" y="0"/><connector id="2" x="60" y="-80" anchor="true"/>
+<Link id="0" name="L"><connector id="0"/><connector id="1"/></Link>
+<Link id="1" name="Z" actuator="true" throw="30" cpm="10"><connector id="2"/><connector id="1"/></Link></linkage2>""")
+    driver = {"slide": "Zr/Zc", "travel": 80, "velocity": pytest.approx(2 * 30 * 10 / 60)}
+    assert driver == convert(tmp_path / "a.linkage2").scene.to_dict()["driver"] | driver

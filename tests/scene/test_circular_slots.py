@@ -164,6 +164,14 @@ def test_a_pin_that_is_not_there_is_said(pin: dict[str, Any], said: str) -> None
     assert any(str(p).startswith(said) for p in refusal.value.problems)
 
 
+def test_a_block_without_a_point_is_asked_for_one_and_not_said_to_slide_on_nothing() -> None:
+    scene = with_block()
+    scene["links"]["3"]["points"] = []
+    with pytest.raises(SceneError, match="points: is missing; name the point of the block that runs") as refusal:
+        graphkin.read(scene)
+    assert "neither points nor on" not in str(refusal.value)
+
+
 def test_a_slot_off_the_way_to_what_is_asked_is_left_alone() -> None:
     scene = {
         "frame": {"points": {"A": [0, 0], "D": [300, 0]}, "guides": {"h": {"centre": [300, 300], "r": 160}}},

@@ -145,3 +145,74 @@ def test_where_rolling_starts_is_an_angle_of_a_link_or_the_travel_of_one_that_sl
     made["gears"]["r"] = {"between": ["1", "3"], "teeth": [20, "rack"]}
     starts = mechanism_of(made).starts
     assert (pytest.approx(math.radians(-30)), pytest.approx(0.015)) == (starts["2"], starts["3/0"])
+
+
+RACK = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -20], "angle": 0}}},
+    "links": {
+        "1": {"points": ["A"]},
+        "2": {"points": ["R"], "on": "0.h", "guides": {"p": {"through": "R", "angle": 0}}},
+    },
+    "gears": {"g": {"between": ["1", "2.p"], "teeth": [20, "rack"]}},
+    "driver": {"link": "1", "angle": 0, "omega": 3},
+}
+TWO_DISCS, SWINGING, EPICYCLIC = (
+    read(name).to_dict() for name in ("disc-on-disc", "cam-swinging-roller", "gears-epicyclic")
+)
+
+
+@pytest.mark.parametrize(
+    ("scene", "path", "value", "sentence"),
+    [
+        (DISC, "links.1.guides", {"k": {"through": "O", "angle": 0}},
+         "links.1.discs.k: 1.k is the name of a guide too; give one of them another"),
+        (TWO_DISCS, "contacts.K.side", "left",
+         'contacts.K.side: found "left" with two discs; two discs touch "outside" or "inside"'),
+        (TWO_DISCS, "links.1.discs.k.r", -40,
+         'contacts.K.side: found "outside" with a hollow outline; leave side out, or write "inside"'),
+        (WHEELS, "gears.g.teeth", [-20, -30],
+         "gears.g.teeth: both have internal teeth; one of them has external teeth"),
+        (WHEELS, "gears.g.between", ["1.k", "2"],
+         'gears.g.between: found "1.k"; a wheel is named by its link alone'),
+        (EPICYCLIC, "gears.sun.carrier", "0",
+         "gears.sun.carrier: link 0 does not hold both axes; it shares a point with link 1 and another with link 3"),
+        (RACK, "gears.g.teeth", [-20, "rack"],
+         "gears.g.teeth: found -20 with a rack; the wheel of a rack has external teeth"),
+        (RACK, "links.2.guides.p.angle", 10,
+         "gears.g: the pitch line is not parallel to the slide 2/0; name a guide of link 2 along which it slides"),
+        (RACK, "frame.guides.h.through", [0, 0],
+         "gears.g: the wheel's axis lies on the pitch line of the rack; the distance of the two is the radius of the "
+         "wheel"),
+        (SWINGING, "cams", {"0": SWINGING["cams"]["1"]}, "cams.0: link 0 is the frame; a cam turns"),
+        (SWINGING, "cams", {"7": SWINGING["cams"]["1"]}, 'cams.7: there is no link "7"; known here: 1, 2'),
+        (SWINGING, "links.2.points", ["A", "B"],
+         "cams.1.follower: swings about the cam's own axis A; its pivot lies elsewhere"),
+    ],
+)
+def test_what_touches_wrongly_is_told_in_one_sentence(scene, path, value, sentence):
+    with pytest.raises(SceneError) as told:
+        mechanism_of(changed(scene, path, value))
+    assert sentence == str(told.value)
+
+
+def inside(first, second):
+    discs = changed(changed(TWO_DISCS, "links.1.discs.k.r", first), "links.2.discs.w.r", second)
+    return changed(discs, "contacts.K.side", "inside")
+
+
+@pytest.mark.parametrize(("radii", "sentence"), [
+    ((-40, -15), "contacts.K.between: 1.k and 2.w are both hollow; one of them has a positive radius"),
+    ((-10, 15), "contacts.K.between: the hollow outline 1.k is no larger than what is in it; its radius must be the "
+     "larger one"),
+    ((15, 15), "contacts.K.side: both radii are equal; inside, one must be smaller than the other"),
+])  # fmt: skip
+def test_radii_that_do_not_touch_inside_are_told_in_one_sentence(radii, sentence):
+    with pytest.raises(SceneError) as told:
+        mechanism_of(inside(*radii))
+    assert sentence == str(told.value)
+
+
+@pytest.mark.parametrize("radii", [(90, 15), (40, 95), (-90, 15)])
+def test_inside_the_larger_of_two_discs_is_the_hollow_one(radii):
+    (contact,) = mechanism_of(inside(*radii)).contacts
+    assert [abs(r) == max(map(abs, radii)) for r in radii] == [r < 0.0 for r in contact.radii]

@@ -424,3 +424,113 @@ def test_what_may_not_be_below_nought_is_not_said_of_all_numbers() -> None:
 def test_a_key_with_a_stroke_is_told_to_stand_in_quotation_marks() -> None:
     with pytest.raises(SceneError, match='keys such as "v_B/C", in quotation marks'):
         mechanism_of_text(changed(FOUR_BAR, ("[driver]", "[printed]\nd_B/D = 350\n[driver]")), "test")
+
+
+PARALLEL = changed(
+    FOUR_BAR, ("length = 150", "length = 300"), ("length = 500", "length = 400"),
+    ("[driver]", '[links.5]\npoints = ["G", "H"]\nlength = 300\nat = { P = [50, 0] }\nredundant = true\n[driver]'),
+    ("D = [400, 0]", "D = [400, 0], G = [200, 0]"), ("E = [100, 50]", "E = [100, 50], H = [200, 0]"),
+)  # fmt: skip
+IN_TURN = changed(LOADED, ('on = "5"\nat = "D"', 'on = "5"\nat = "D"\nwhen = HERE'))
+STANDING = changed(FOUR_BAR, (DRIVER, 'link = "1"\ntime = 0.2\nlaw = HERE'))
+CYLINDER = """[frame]
+points = { A = [0, 0], C = [200, -300] }
+[links.1]
+points = ["A", "B"]
+length = 400
+[links.2]
+points = ["B"]
+on = "3"
+[links.3]
+points = ["C"]
+[loads.Q]
+on = "1"
+at = "B"
+force = 3
+angle = -90
+[driver]
+slide = "2"
+travel = 520
+velocity = 60
+"""
+BESIDE = {
+    # loads
+    "balance alone": (FOUR_BAR, [("[driver]", '[balance]\non = "1"\n[driver]')],
+                      "balance: there is nothing to balance; give [masses.LINK], [loads.NAME] or [springs.NAME]"),
+    "redundant mass": (PARALLEL, [("[driver]", '[masses.5]\nat = "P"\nmass = 3\n[driver]')],
+                       "masses.5: link 5 is redundant; its share of the forces is not determined; use another link"),
+    "redundant spring": (PARALLEL, [("[driver]", '[springs.S]\nbetween = ["P", "D"]\nrate = 1\nfree = 5\n[driver]')],
+                         "springs.S.between: link 5 is redundant; its share of the forces is not determined; use "
+                         "another link"),
+    "force and moment": (LOADED, [("force = 100", "force = 100\nmoment = 3")],
+                         "loads.P: has both force and moment; give one of them"),
+    "no force": (LOADED, [("force = 100\n", "")], "loads.P: has neither force nor moment; give one of them"),
+    "against and angle": (LOADED, [("force = 100", "force = 100\nangle = 3")],
+                          "loads.P.against: stands beside angle or follows; a force has one direction"),
+    "when of nothing": (IN_TURN, [("HERE", "{ }")],
+                        "loads.P.when: has neither stroke nor driver; give one of them"),
+    "when of both": (IN_TURN, [("HERE", '{ stroke = "5/6", driver = [10, 20] }')],
+                     "loads.P.when: has both stroke and driver; give one of them"),
+    "when back": (IN_TURN, [("HERE", '{ stroke = "5/6", from = 0.9, to = 0.5 }')],
+                  "loads.P.when: from 0.9 to 0.5; parts of the stroke grow from 0 to 1"),
+    "when a slide goes back": (CYLINDER, [("angle = -90", "angle = -90\nwhen = { driver = [500, 400] }")],
+                               "loads.Q.when.driver: found 500, 400; the travel grows between them"),
+    "balance without place": (LOADED, [('on = "1"\n[positions]', 'on = "1"\nangle = 20\n[positions]')],
+                              "balance.angle: stands without at; a force has a place; a moment has no direction"),
+    # drivers
+    "dead point of drawn points": (changed(SIX_BAR, DEAD), [("[driver]", "[drawn]\nB = [78, 373]\n[driver]")],
+                                   "driver.from: with [drawn] the value of the driver follows from the points; leave "
+                                   "one of the two out"),
+    "no position": (SIX_BAR, [("angle = 50", 'position = "3"')],
+                    'driver.position: there is no position "3"; name it in [positions]'),
+    "position without first": (LOADED, [("angle = 50", 'position = "3"'), ("first = 3\n", "")],
+                               "driver.position: the numbered positions count from the driver's own value; write "
+                               "positions.first, or the angle"),
+    "position and angle": (LOADED, [("angle = 50", 'angle = 50\nposition = "3"')],
+                           "driver.position: found angle = 50 too; write one of the two"),
+    "law of nothing": (STANDING, [("HERE", "{ from = 3 }")],
+                       'driver.law: says nothing; write { from = 20, to = 110, duration = 0.5, by = "cycloidal" }, or '
+                       "from and pieces, or a table"),
+    "law by two": (STANDING, [("HERE", "{ from = 3, to = 90, table = [[0, 1], [1, 2]] }")],
+                   'driver.law: says its motion by table, by; write { from = 20, to = 110, duration = 0.5, by = '
+                   '"cycloidal" }, or from and pieces, or a table'),
+    "law from nowhere": (STANDING, [("HERE", '{ to = 90, duration = 1, by = "345" }')],
+                         "driver.law.from: is missing; write the driver's value at 0 s"),
+    "law by nothing": (STANDING, [("HERE", "{ from = 0, to = 90, duration = 1 }")],
+                       'driver.law.by: is missing; write by = "cycloidal", "harmonic", "345" or another law'),
+    "pieces back": (STANDING, [("HERE", '{ from = 0, pieces = [{ to = 1, rise = 20, by = "345" }, { to = 0.5 }] }')],
+                    "driver.law.pieces.2: ends at 0.5 s, where it begins at 1; seconds grow"),
+    "table from": (STANDING, [("HERE", "{ from = 0, table = [[0, 1], [1, 2]] }")],
+                   "driver.law.from: stands beside a table; the table says where it begins"),
+    "table of one": (STANDING, [("HERE", "{ table = [[0, 1]] }")],
+                     "driver.law.table: has one row; write [[time, value], ...], two rows or more"),
+    # questions
+    "positions of a slide": (CYLINDER, [("[driver]", "[positions]\ncount = 12\n[driver]")],
+                             "positions.count: the driver slides, it makes no turn; name its positions in "
+                             "positions.also, by travel"),
+    "stroke of a slide": (
+        CYLINDER, [("[driver]", '[positions]\nalso = { x = { stroke = "2/3", at = 0, sense = 1 } }\n[driver]')],
+        "positions.also.x: the driver slides, there is no stroke of a whole turn; give a travel"),
+    "printed by hand": (FOUR_BAR, [("[driver]", '[printed]\nby = "hand"\n[driver]')],
+                        'printed.by: found \'hand\'; one of "drawing", "computation" is possible'),
+    "row of two": (FOUR_BAR, [("[driver]", "[[printed_rows]]\nat = [1, 2]\n[driver]")],
+                   "printed_rows.1.at: is two numbers; write the driver's value, or the name of a position"),
+    "row at no position": (FOUR_BAR, [("[driver]", '[[printed_rows]]\nat = "7"\n[driver]')],
+                           'printed_rows.1.at: there is no position "7"; name positions in [positions], or write a '
+                           "driver value"),
+    "loop of two": (FOUR_BAR, [("[driver]", '[loops]\nI = ["A", "B"]\n[driver]')],
+                    "loops.I: has 2 points; a loop goes through three points or more"),
+    "loop that closes": (FOUR_BAR, [("[driver]", '[loops]\nI = ["A", "B", "C", "A"]\n[driver]')],
+                         "loops.I: comes twice to one point; name each point once; it closes by itself"),
+}
+
+
+@pytest.mark.parametrize("rule", BESIDE)
+def test_what_stands_beside_or_is_left_out_is_told_in_one_sentence(rule: str) -> None:
+    text, changes, sentence = BESIDE[rule]
+    assert [sentence] == messages(changed(text, *changes))
+
+
+def test_a_truth_at_which_a_printed_row_stands_is_not_missing_too() -> None:
+    [sentence] = messages(changed(FOUR_BAR, ("[driver]", "[[printed_rows]]\nat = true\n[driver]")))
+    assert sentence.startswith("printed_rows.1.at: found true; write a number")
