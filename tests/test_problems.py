@@ -278,3 +278,17 @@ def test_a_number_of_positions_is_no_length(tmp_path, language, told):
     scene = tmp_path / "scene.toml"
     scene.write_text(library_text("slider-crank-offset") + "\n[positions]\ncount = 0\n")
     assert told in run("check", str(scene), "--lang", language).stderr
+
+
+def test_designs_that_are_no_scene_are_refused_in_chinese(tmp_path):
+    done = run("sweep", "whitworth", "--set", "links.2.length=-1,-2", "-o", str(tmp_path), "--lang", "zh")
+    said = "graphkin: --set, --designs：links.2.length：读到 -1，长度为负；长度应为正\n"
+    assert (2, said) == (done.returncode, done.stderr.splitlines(keepends=True)[0])
+
+
+def test_designs_whose_driver_follows_from_dimensions_are_refused_in_chinese():
+    driver = {"link": "2", "angle": 150, "speed": 400, "of": "A"}
+    prepared = graphkin.prepare({**tomllib.loads(library_text("whitworth")), "driver": driver}, find=["v_C"])
+    with pytest.raises(CallError) as refused:
+        prepared.over({"links.2.length": [60, 70]})
+    assert refused.value.text("zh").endswith("由死点、位置或点的速度给出，随每个方案而变；请直接给出其值")

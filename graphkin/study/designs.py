@@ -256,14 +256,8 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Number
         by itself, or keys that do not act independently; a driver whose value or rate follows from dimensions
     """
     written = mechanism_of(source)
-    for driver in written.drivers:
-        found = "the driver is given from a dead point, which moves with each" if driver.distance is not None else ""
-        if driver.given_speed:
-            found = "the driver's rate is given by the speed of a point, and is another with each"
-        elif driver.position:
-            found = "the driver is given by a position, which moves with each"
-        if found:
-            raise CallError.of("designs", found, "give its value instead")
+    if any(d.distance is not None or d.given_speed or d.position for d in written.drivers):
+        raise CallError.of("designs", "the driver follows from dimensions", "give its value instead")
     laws: dict[str, dict[Dimension, _Law]] = {}
     changed: dict[str, float] = {}
     for key in keys:
@@ -273,8 +267,8 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Number
         laws[key] = _laws(key, begin, step, [dimensions(mechanism) for mechanism in read])
         beside = dict.fromkeys(part for mechanism in read for part in changed_beside(written, mechanism))
         if beside:
-            hint = "sweep over it: graphkin.sweep(..., designs=...)"
-            raise CallError.of(f"designs {key}", "changes more than dimensions", hint, beside=", ".join(beside))
+            raise CallError.of(f"designs {key}", "changes more than dimensions", "sweep over it graphkin.sweep designs",
+                               beside=", ".join(beside))
     own = dimensions(scene)
 
     def numbers(values: Mapping[str, Reals]) -> dict[Dimension, Complexes]:

@@ -34,7 +34,7 @@ from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.prepared_designs import PreparedMechanisms
 from graphkin.study.quantities import Parts, Words, all_that_moves, motion_table, parts_of, word_column
 from graphkin.table import Column, Table, Tabled, Values, parquet_of_csv, table_of_csv
-from graphkin.words import from_others
+from graphkin.words import Wording, as_data, from_data, from_others
 
 if TYPE_CHECKING:
     import xarray
@@ -192,7 +192,7 @@ def _is_prepared(quantity: Symbol) -> bool:
     return given and not (quantity.is_rate_of_pair or quantity.axis)
 
 
-Missing = tuple[Array, FollowedDesign | tuple[str, str], Array]
+Missing = tuple[Array, FollowedDesign | tuple[str, Wording], Array]
 """Rows of a table for which a prepared mechanism has nothing, with the design of which the solver says why, or its
 status and reason, and the offsets of the first driver in its range (rad, m)."""
 
@@ -210,7 +210,7 @@ class Outcome:
 
     design: int
     status: str
-    why: str
+    why: Wording
     cells: Mapping[str, float | str | None]
     good: int
 
@@ -439,7 +439,7 @@ def made_text(sweep: Sweep) -> tuple[bytes, list[Outcome]]:
     return out.getvalue(), outcomes
 
 
-def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, str]]) -> dict[int, Arrays]:
+def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, Wording]]) -> dict[int, Arrays]:
     """The results of the prepared scene for designs that are the scene with other dimensions in the same assembly, as
     of ``prepare(...).over(...)``."""
     try:
@@ -467,12 +467,13 @@ def _together(sweep: Sweep, designs: Sequence[FollowedDesign | tuple[str, str]])
 
 
 def _rows(
-    sweep: Sweep, number: int, design: FollowedDesign | tuple[str, str], arrays: Arrays | None, first: int, last: int
+    sweep: Sweep, number: int, design: FollowedDesign | tuple[str, Wording], arrays: Arrays | None, first: int,
+    last: int,
 ) -> tuple[Table, Outcome]:
     """Some positions of a design, and its outcome."""
     if isinstance(design, tuple):
         status, why = design
-        return sweep.base.blank(first, last, status, why), Outcome(number, status, why, {}, 0)
+        return sweep.base.blank(first, last, status, str(why)), Outcome(number, status, why, {}, 0)
     n = sweep.positions
     table, cells = design.table(n, first, last, arrays), dict[str, float | str | None]()
     if sweep.designs.keys and first == 0:
@@ -490,7 +491,7 @@ def _outcome(number: int, table: Table, cells: Mapping[str, float | str | None])
     return Outcome(number, status, why, cells, len(table) - len(bad))
 
 
-def _followed(sweep: Sweep, number: int) -> FollowedDesign | tuple[str, str]:
+def _followed(sweep: Sweep, number: int) -> FollowedDesign | tuple[str, Wording]:
     """A design with its path, or the status and the reason why it has none."""
     try:
         design, source = sweep.base, sweep.source
@@ -502,9 +503,9 @@ def _followed(sweep: Sweep, number: int) -> FollowedDesign | tuple[str, str]:
         _ = design.reach
         return design
     except Unsolvable as error:
-        return error.status, error.why
+        return error.status, error.reason
     except GraphkinError as error:
-        return "wrong scene", " ".join(str(p) for p in error.problems)
+        return "wrong scene", error.reason
 
 
 def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequence[Value]) -> Table:
@@ -573,7 +574,7 @@ def write_tables(
             _count(sweep, len(finished), progress)
             results = workers.results(made_text, ((sweep.piece(k),) for k in missing))
             for k, (number, (text, outcomes)) in enumerate(zip(missing, results, strict=True), 1):
-                points.save(number, {"outcomes": [asdict(o) for o in outcomes]}, text)
+                points.save(number, {"outcomes": [{**asdict(o), "why": as_data(o.why)} for o in outcomes]}, text)
                 _count(sweep, len(finished) + k, progress)
             return *_merged(sweep, points, folder, parquet), damaged
     except OSError as error:
@@ -591,10 +592,9 @@ def _merged(
         sweep.head.write_csv(out)
         for piece in map(points.load, range(sweep.pieces)):
             if piece is None:
-                wanted = "run the same command again; the disk may be failing"
-                raise CallError.of(str(points.place), "a piece was damaged while the table was", wanted)
+                raise CallError.of(str(points.place), "a piece was damaged while the table was", "run it again")
             piece.copy(out)
-            of_pieces += [Outcome(**o) for o in piece.facts["outcomes"]]
+            of_pieces += [Outcome(**{**o, "why": from_data(o["why"])}) for o in piece.facts["outcomes"]]
     outcomes = _joined(sweep, of_pieces)
     if sweep.designs.keys:
         files.append(folder / "designs.csv")
@@ -630,6 +630,6 @@ def designs_table(sweep: Sweep, outcomes: Sequence[Outcome]) -> Table:
     """A row for each design: replaced values, outcome, strokes, K, least transmission angles."""
     names = tuple(dict.fromkeys(name for o in outcomes for name in o.cells))
     rows = (
-        (o.design + 1, *sweep.designs[o.design], o.status, *(o.cells.get(n) for n in names), o.why) for o in outcomes
+        (o.design + 1, *sweep.designs[o.design], o.status, *map(o.cells.get, names), str(o.why)) for o in outcomes
     )
     return Table.of(("design", *sweep.designs.keys, "status", *names, "why"), rows)

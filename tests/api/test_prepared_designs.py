@@ -293,7 +293,7 @@ def test_a_key_that_moves_a_cam_by_its_law_is_refused(key):
 def test_a_rate_that_follows_from_the_lengths_has_no_designs():
     driver = {"link": "1", "angle": 60, "speed": 2000, "of": "C"}
     ready = graphkin.prepare(FOUR_BAR | {"driver": driver}, find=["v_C"])
-    with pytest.raises(graphkin.CallError, match="the driver's rate is given by the speed of a point"):
+    with pytest.raises(graphkin.CallError, match="the driver's value or rate is given by a dead point"):
         ready.over({"links.1.length": [140, 150]})
 
 
