@@ -25,6 +25,7 @@ from graphkin.api.cams import cam_made, cam_table
 from graphkin.api.checked import Checked, checked, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
+from graphkin.checking.readings import report_on
 from graphkin.construction import EXACT, Instrument, Plan, execute, plan, plan_with_forces
 from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.boxes import FigurePage
@@ -329,7 +330,7 @@ def sheets_beside(
     Raises
     ------
     CallError : fewer than two positions, or a name of none
-    Unsolvable : a position that cannot be assembled or reached
+    Unsolvable : a position that cannot be assembled or reached; Disagreement : a reading out of tolerance there
     """
     scene = structure.scene
     named = scene.question.positions.show if scene.question.positions else ()
@@ -342,7 +343,9 @@ def sheets_beside(
     sheets = []
     for name in map(str, wished):
         values = {**drivers, **(driver_values(scene, name if name in known else _number(name)) or {})}
-        sheets.append((name, execute(plan(structure, values, asked))))
+        sheet = execute(plan(structure, values, asked))
+        report_on(sheet, solved_here(structure, values, asked)).must_agree()
+        sheets.append((name, sheet))
     return sheets
 
 

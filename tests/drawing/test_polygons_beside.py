@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import pytest
 
 import graphkin
+from graphkin.checking import readings as readings_module
+from graphkin.checking.readings import read_off
+from graphkin.construction.board.sheet import Reading, Sheet
+from graphkin.errors import Disagreement
 
 NUMBERED = {"count": 12, "first": {"stroke": "6/1", "at": 0, "sense": 1}, "show": ["3", "9"]}
 
@@ -47,3 +53,17 @@ def test_driver_values_may_stand_for_names_and_further_positions_stand_on_furthe
 def test_one_position_alone_is_refused() -> None:
     with pytest.raises(graphkin.CallError, match="beside each other"):
         _ = graphkin.draw("shaper-scheme-2", figures=["polygons"], beside=[10]).figures
+
+
+def test_a_value_that_is_drawn_wrong_in_another_position_alone_is_not_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    own = graphkin.read("sixbar-420rpm").mechanism.drivers[0].value
+
+    def wrong(sheet: Sheet, *given: Any) -> list[Reading]:
+        readings = read_off(sheet, *given)
+        here = sheet.drivers["1"] == pytest.approx(own)
+        return readings if here else [replace(reading, value=1.001 * reading.value) for reading in readings]
+
+    monkeypatch.setattr(readings_module, "read_off", wrong)
+    assert graphkin.draw("sixbar-420rpm", figures=["velocity"]).files
+    with pytest.raises(Disagreement, match="by the drawing"):
+        assert graphkin.draw("sixbar-420rpm", figures=["polygons"], beside=[45, 80]).figures
