@@ -12,7 +12,7 @@ import cmath
 import math
 from collections.abc import Callable, Mapping
 
-from graphkin.board.scene_text import changed
+from graphkin.board.scene_text import changed, frame_in, list_in, points_in, table_in
 from graphkin.errors import CallError, did_you_mean
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross, degrees, dot
@@ -46,48 +46,34 @@ def built(text: str, step: Step) -> str:
         raise CallError.of("piece", f'"{what[:60]}"', did_you_mean(what[:60], STEPS))
     text = text if text.strip() else EMPTY
     made = parsed(text)
-    seen = {p: z for p, z in _tables(step, "places").items() if _place(z) and p in _points(made)}
+    seen = {p: z for p, z in table_in(step, "places").items() if _place(z) and p in points_in(made)}
     changes = STEPS[what]({**made, "seen": seen}, step)
     return changed(text, changes) if changes else text
-
-
-def _tables(made: Tables, name: str) -> OwnTables:
-    table = made.get(name)
-    return dict(table) if isinstance(table, Mapping) else {}
-
-
-def _frame(made: Tables) -> tuple[str, OwnTables]:
-    frame = _tables(made, "frame")
-    return str(frame.get("name", "0")), _tables(frame, "points")
 
 
 def draft(made: Tables) -> OwnTables:
     """The parts of a mapping that can be shown before it is a mechanism: places of points (scene units), and the points
     of each link, whatever is still missing."""
-    _, fixed = _frame(made)
-    spots = {**_tables(made, "sketch"), **_tables(made, "drawn"), **_tables(made, "seen"), **fixed}
+    _, fixed = frame_in(made)
+    spots = {**table_in(made, "sketch"), **table_in(made, "drawn"), **table_in(made, "seen"), **fixed}
     points = {str(p): list(z) for p, z in spots.items() if _place(z)}
     for name, z in fixed.items():
         if isinstance(z, Mapping) and str(z.get("from")) in points and _place([z.get("r"), z.get("angle", 0.0)]):
             (x, y), turn = points[z["from"]], math.radians(z.get("angle", 0.0))
             points[name] = [x + z["r"] * math.cos(turn), y + z["r"] * math.sin(turn)]
     links = {}
-    for name, link in _tables(made, "links").items():
+    for name, link in table_in(made, "links").items():
         if isinstance(link, Mapping):
-            ends = [p for p in (*_list(link.get("points")), *_tables(link, "at")) if p in points]
+            ends = [p for p in (*list_in(link.get("points")), *table_in(link, "at")) if p in points]
             links[str(name)] = {"points": ends, "block": "on" in link and len(ends) < 2}
     guides = []
-    for guide in _tables(_tables(made, "frame"), "guides").values():
+    for guide in table_in(table_in(made, "frame"), "guides").values():
         through = guide.get("through") if isinstance(guide, Mapping) else None
         through = points.get(through) if isinstance(through, str) else through
         if _place(through):
             turn = guide.get("angle")
             guides.append({"through": through, "angle": turn if isinstance(turn, int | float) else 0.0})
     return {"points": points, "fixed": [p for p in fixed if p in points], "links": links, "guides": guides}
-
-
-def _list(value: object) -> list[object]:
-    return list(value) if isinstance(value, list) else []
 
 
 def _place(value: object) -> bool:
@@ -97,24 +83,16 @@ def _place(value: object) -> bool:
 
 
 def _free_letter(made: Tables, taken: set[str]) -> str:
-    used = taken | _points(made)
+    used = taken | points_in(made)
     names: list[str] = [*_LETTERS, *(f"{c}{n}" for n in range(1, 100) for c in _LETTERS)]
     return next(name for name in names if name not in used)
 
 
 def next_link(made: Tables) -> str:
     """The number of the next link."""
-    links = _tables(made, "links")
-    fixed, _ = _frame(made)
+    links = table_in(made, "links")
+    fixed, _ = frame_in(made)
     return next(str(n) for n in range(1, 10_000) if str(n) not in links and str(n) != fixed)
-
-
-def _points(made: Tables) -> set[str]:
-    points = {*_tables(made, "sketch"), *_tables(made, "drawn"), *_tables(made, "pins"), *_frame(made)[1]}
-    for link in _tables(made, "links").values():
-        if isinstance(link, Mapping):
-            points |= {str(p) for p in (*_list(link.get("points")), *_tables(link, "at"))}
-    return points
 
 
 def _at(step: Step, key: str) -> list[float]:
@@ -147,7 +125,7 @@ def _end(
 
 
 def _link_of(made: Tables, step: Step, key: str) -> str:
-    name, links = str(step.get(key, "")), _tables(made, "links")
+    name, links = str(step.get(key, "")), table_in(made, "links")
     if name not in links:
         raise CallError.of(Phrase("link", name=name[:40]), "there is no such link", did_you_mean(name[:40], links))
     return name
@@ -176,7 +154,7 @@ def _bar(made: Tables, step: Step) -> OwnTables:
 def _point_on(made: Tables, step: Step) -> OwnTables:
     """A further point of a link, in its own axes."""
     name, place = _link_of(made, step, "link"), _at(step, "at")
-    ends = _list(made["links"][name].get("points"))
+    ends = list_in(made["links"][name].get("points"))
     spots = draft(made)["points"]
     if len(ends) < 2 or any(p not in spots for p in ends):
         raise CallError.of(Phrase("link of name", name=name), "has no axis of its own", "give it two points first")
@@ -191,8 +169,8 @@ def _slider(made: Tables, step: Step) -> OwnTables:
     """A block with a pin, on a new guide of the frame through its place."""
     changes: OwnTables = {}
     point, place = _end(made, step, "point", changes)
-    fixed, _ = _frame(made)
-    guides = _tables(_tables(made, "frame"), "guides")
+    fixed, _ = frame_in(made)
+    guides = table_in(table_in(made, "frame"), "guides")
     guide = next(name for name in ("h", *(f"h{n}" for n in range(2, 1000))) if name not in guides)
     angle = float(step.get("angle", 0.0) or 0.0)
     if not math.isfinite(angle):
@@ -220,8 +198,8 @@ def _slotted(made: Tables, step: Step) -> OwnTables:
 def _pin(made: Tables, step: Step) -> OwnTables:
     """A pin of one link in the slot along the axis of another."""
     point = str(step.get("point", ""))
-    if point not in _points(made):
-        near = did_you_mean(point[:40], _points(made))
+    if point not in points_in(made):
+        near = did_you_mean(point[:40], points_in(made))
         raise CallError.of(Phrase("point", point=point[:40]), "there is no such point", near)
     return {f"pins.{point}": {"of": _link_of(made, step, "of"), "in": _link_of(made, step, "link")}}
 
@@ -230,14 +208,14 @@ def _drive(made: Tables, step: Step) -> OwnTables:
     """A driven link: its angle is that of the sketch."""
     name = _link_of(made, step, "link")
     link, spots = made["links"][name], draft(made)["points"]
-    ends = [p for p in _list(link.get("points")) if p in spots]
-    fixed, _ = _frame(made)
+    ends = [p for p in list_in(link.get("points")) if p in spots]
+    fixed, _ = frame_in(made)
     if len(ends) < 2:
         on = link.get("on")
-        if not ends or not isinstance(on, str) or not on.startswith(f"{fixed}."):
+        if not ends or not isinstance(on, str) or on.partition(".")[0] != fixed:
             raise CallError.of(Phrase("link of name", name=name), "has no axis that could be driven",
                                "drive a bar or a slider")
-        guide = _tables(made["frame"], "guides").get(on.partition(".")[2], {})
+        guide = table_in(made["frame"], "guides").get(on.partition(".")[2], {})
         through = guide.get("through", [0.0, 0.0])
         start = complex(*spots.get(through, (0, 0))) if isinstance(through, str) else complex(*through)
         turn = math.radians(guide.get("angle", 0.0))
@@ -251,21 +229,21 @@ def _drive(made: Tables, step: Step) -> OwnTables:
 def _delete(made: Tables, step: Step) -> OwnTables:
     """Remove a link or a point, with the parts that only hung on it."""
     changes: OwnTables = {}
-    links = _tables(made, "links")
+    links = table_in(made, "links")
     if "link" in step:
         gone = {_link_of(made, step, "link")}
     else:
         point = str(step.get("point", ""))
-        if point not in _points(made):
+        if point not in points_in(made):
             raise CallError.of(Phrase("point", point=point[:40]), "there is no such point")
-        gone = {n for n, link in links.items() if point in _list(link.get("points"))}
-        changes |= {f"links.{n}.at.{point}": None for n, link in links.items() if point in _tables(link, "at")}
-        if point in _frame(made)[1]:
+        gone = {n for n in links if point in list_in(table_in(links, n).get("points"))}
+        changes |= {f"links.{n}.at.{point}": None for n, link in links.items() if point in table_in(link, "at")}
+        if point in frame_in(made)[1]:
             changes[f"frame.points.{point}"] = None
     changes |= {f"links.{name}": None for name in gone}
-    kept = {p for n, link in links.items() if n not in gone for p in (*_list(link.get("points")), *_tables(link, "at"))}
+    kept = points_in({"links": {name: link for name, link in links.items() if name not in gone}})
     for table in ("sketch", "drawn", "pins"):
-        for name, entry in _tables(made, table).items():
+        for name, entry in table_in(made, table).items():
             of = isinstance(entry, Mapping) and gone & {str(entry.get("of")), str(entry.get("in")).split(".")[0]}
             if name not in kept or of or name == step.get("point"):
                 changes[f"{table}.{name}"] = None
@@ -284,9 +262,9 @@ STEPS: Mapping[str, Callable[[Tables, Step], OwnTables]] = {
 
 def trial_driver(made: Tables) -> OwnTables | None:
     """A driver for a mapping without one, so that its freedom can be counted; None where there is no link."""
-    if "driver" in made or not _tables(made, "links"):
+    if "driver" in made or not table_in(made, "links"):
         return None
-    return {"link": next(iter(_tables(made, "links"))), "angle": 0.0, "omega": 1.0}
+    return {"link": next(iter(table_in(made, "links"))), "angle": 0.0, "omega": 1.0}
 
 
 # -- a point pulled ----------------------------------------------------------------------------------------------------
@@ -371,22 +349,18 @@ def _as_drawn(motion: Motion, point: str, to: complex) -> OwnTables:
 
 
 def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
-    scene = motion.scene
-    for index, driver in enumerate(scene.drivers):
-        if point not in _driven(scene, driver):
-            continue
-        now = complex(motion.position(point)[0])
-        if driver.turns:
-            pivot = next(p for p in scene.by_name[driver.link].points if p in scene.frame.points)
-            centre = scene.frame.points[pivot]
-            if abs(to - centre) == 0.0:
-                return {}
-            turn = math.degrees(cmath.phase((to - centre) / (now - centre)))
-            return {driver.key: math.degrees(float(motion.values[0][index])) + turn}
-        slide = next(s for s in scene.slidings if s.key == driver.key)
-        travel = float(motion.values[0][index]) + dot(to - now, slide.guide.direction)
-        return {driver.key: travel / scene.units.metres}
-    return {}
+    scene, now = motion.scene, complex(motion.position(point)[0])
+    index, driver = next(each for each in enumerate(scene.drivers) if point in _driven(scene, each[1]))
+    if driver.turns:
+        pivot = next(p for p in scene.by_name[driver.link].points if p in scene.frame.points)
+        centre = scene.frame.points[pivot]
+        if abs(to - centre) == 0.0:
+            return {}
+        turn = math.degrees(cmath.phase((to - centre) / (now - centre)))
+        return {driver.key: math.degrees(float(motion.values[0][index])) + turn}
+    slide = next(s for s in scene.slidings if s.key == driver.key)
+    travel = float(motion.values[0][index]) + dot(to - now, slide.guide.direction)
+    return {driver.key: travel / scene.units.metres}
 
 
 def _of_frame(raw: Tables, scene: Mechanism, point: str, to: complex) -> OwnTables:
@@ -410,10 +384,11 @@ def _entry(
 
 
 def _polar(scene: Mechanism, key: str, entry: Tables, before: complex, now: complex) -> OwnTables:
-    if abs(now) == 0.0:
-        return {}
+    radius = _length(scene, abs(now))
+    if radius == 0.0:  # it stays
+        return {f"{key}.r": entry["r"]}
     turned = float(entry.get("angle", 0.0)) + degrees(now / before)
-    return {f"{key}.r": _length(scene, abs(now)), f"{key}.angle": _angle(turned)}
+    return {f"{key}.r": radius, f"{key}.angle": _angle(turned)}
 
 
 def _on_guide(scene: Mechanism, point: str, to: complex) -> complex:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, get_args
 
 from graphkin.errors import CallError, Problem, SceneError
-from graphkin.files import Json
+from graphkin.files import Json, OwnTables, Tables
 from graphkin.scene.scene import LARGEST_FILE, parsed
 from graphkin.scene.scene_tables import SCENE, Convention
 from graphkin.scene.tables import item_of
@@ -236,30 +236,52 @@ def completions(text: str, line: int, column: int) -> list[dict[str, Wording]]:
         paths = by_kind if head[:1] == ("driver",) else [head]
         keys = {key: detail for path in paths for key, detail in SCENE.keys_at(path).items()}
         return [{"label": key, "detail": detail} for key, detail in keys.items()]
-    return [{"label": name, "detail": ""} for name in _names(text, _parts(entry[2])[-1], before.count('"') % 2 == 1)]
+    names = _names(text, head, _parts(entry[2])[-1], before.count('"') % 2 == 1)
+    return [{"label": name, "detail": ""} for name in names]
 
 
-def _names(text: str, key: str, quoted: bool) -> list[str]:
+def _names(text: str, head: tuple[str, ...], key: str, quoted: bool) -> list[str]:
     try:
         made = parsed(text)
     except SceneError:
         made = {}
-    links = made.get("links")
-    links = {str(k): v for k, v in links.items() if isinstance(v, dict)} if isinstance(links, dict) else {}
-    frame = made.get("frame")
-    frame = frame if isinstance(frame, dict) else {}
-    fixed = str(frame.get("name", "0"))
+    links, (fixed, _) = table_in(made, "links"), frame_in(made)
     if key in ("points", "from", "through", "toward"):
-        names = {p for link in links.values() for p in link.get("points", ()) if isinstance(p, str)}
-        names |= set(frame.get("points") or {}) | {p for link in links.values() for p in link.get("at") or {}}
+        names = points_in(made)
     elif key in ("on", "in"):
-        names = set(links) | {f"{fixed}.{g}" for g in frame.get("guides") or {}}
-        names |= {f"{name}.{g}" for name, link in links.items() for g in link.get("guides") or {}}
+        guides = {fixed: table_in(made, "frame"), **links}
+        names = {*links} | {f"{name}.{guide}" for name, link in guides.items() for guide in table_in(link, "guides")}
     elif key in ("link", "of", "relative_to"):
         names = set(links)
-    elif key == "length" and "units" in text:
+    elif key == "length" and head == ("units",):
         names = {"mm", "cm", "m", "in", "ft"}
     else:
         names = {"convention": set(get_args(Convention)), "language": set(LANGUAGES),
                  "sense": {"clockwise", "counter-clockwise"}}.get(key, set())
     return sorted(names if quoted else {f'"{name}"' for name in names})
+
+
+# -- what a text names, whatever is still missing ------------------------------------------------------------------
+
+
+def table_in(made: object, name: str) -> OwnTables:
+    """A table of a mapping, empty where there is none."""
+    table = made.get(name) if isinstance(made, Mapping) else None
+    return dict(table) if isinstance(table, Mapping) else {}
+
+
+def frame_in(made: Tables) -> tuple[str, OwnTables]:
+    frame = table_in(made, "frame")
+    return str(frame.get("name", "0")), table_in(frame, "points")
+
+
+def list_in(value: object) -> list[object]:
+    return list(value) if isinstance(value, list) else []
+
+
+def points_in(made: Tables) -> set[str]:
+    points = {*table_in(made, "sketch"), *table_in(made, "drawn"), *table_in(made, "pins"), *frame_in(made)[1]}
+    for link in table_in(made, "links").values():
+        if isinstance(link, Mapping):
+            points |= {str(p) for p in (*list_in(link.get("points")), *table_in(link, "at"))}
+    return points

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import tomllib
+from base64 import b64decode
+from io import BytesIO
+from zipfile import ZipFile
 
 import pytest
 
@@ -251,6 +254,100 @@ def test_what_is_deleted_takes_along_what_hung_on_it() -> None:
         {"what": "delete", "link": "1"},
     )  # fmt: skip
     assert not {"driver", "sketch"} & {k for k, v in tomllib.loads(text).items() if v}
+
+
+SLIDER = """[frame]
+points = { A = [0, 0], D = [0, 30] }
+guides = { h = { through = "D", angle = 90 } }
+[links.1]
+points = ["A", "B"]
+length = 15
+at = { E = [10, 5] }
+[links.2]
+points = ["C"]
+on = "0.h"
+[links.3]
+points = ["F"]
+on = "0"
+[sketch]
+B = [9, 12]
+C = [5, 40]
+E = [2, 11]
+F = [20, 4]
+"""
+
+
+@pytest.mark.parametrize(
+    ("step", "changes"),
+    [
+        ({"what": "fix", "point": "E"}, {"frame.points.E": [2, 11], "sketch.E": None}),
+        ({"what": "pin", "point": "E", "of": "1", "link": "2"}, {"pins": {"E": {"of": "1", "in": "2"}}}),
+        ({"what": "drive", "link": "2"}, {"driver": {"slide": "2", "travel": 10.0, "velocity": 100.0}}),
+        ({"what": "drive", "link": "3", "speed": 7}, {"driver": {"slide": "3", "travel": 20.0, "velocity": 7.0}}),
+        ({"what": "delete", "point": "E"}, {"links.1.at.E": None, "sketch.E": None}),
+        ({"what": "delete", "point": "D"}, {"frame.points.D": None}),
+        ({"what": "delete", "point": "B"}, {"links.1": None, "sketch.B": None, "sketch.E": None}),
+    ],
+)
+def test_a_piece_changes_what_it_names_and_nothing_else(step: dict, changes: dict) -> None:
+    made = answer(Shelf(), {"do": "build", "text": SLIDER, "step": step})["text"]
+    assert tomllib.loads(changed(SLIDER, changes)) == tomllib.loads(made)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "question"),
+    [
+        ("point Q: has no place in the sketch", {"do": "build", "step": {"what": "fix", "point": "Q"}}),
+        ("point Q: there is no such point", {"do": "build", "step": {"what": "pin", "point": "Q"}}),
+        ("point Q: there is no such point", {"do": "build", "step": {"what": "delete", "point": "Q"}}),
+        ('link "9": there is no such link', {"do": "build", "step": {"what": "drive", "link": "9"}}),
+        ("link 2: has no axis of its own; give it two points first",
+         {"do": "build", "step": {"what": "point", "link": "2", "at": [1, 2]}}),
+        ("changes: found 501; at most 500 at once", {"do": "change", "changes": {f"A{i}": 1 for i in range(501)}}),
+        ("links.1.length.x: links.1.length has nothing inside", {"do": "change", "changes": {"links.1.length.x": 3}}),
+        ("frame.points.A.3: there is no item 3; it has 2, counted from 1",
+         {"do": "change", "changes": {"frame.points.A.3": 3}}),
+        ("the file: would be larger than 1000 kB", {"do": "change", "changes": {"title": "x" * 1_000_000}}),
+        ("figure: there is nothing to draw; choose another figure", {"do": "export", "kind": "svg", "figures": []}),
+    ],
+)
+def test_a_piece_or_change_that_cannot_be_is_told_in_a_sentence(sentence: str, question: dict) -> None:
+    text = SIXBAR if question["do"] == "export" else SLIDER
+    found = answer(Shelf(), {"text": text, **question})
+    assert [sentence] == [one["text"][: len(sentence)] for one in found["problems"]]
+
+
+def test_a_point_pulled_onto_what_it_is_measured_from_stays() -> None:
+    text = changed(library_text("fourbar-150-500-300-400"), {"links.2.at.M": {"from": "B", "r": 20, "angle": 30}})
+    pin = answer(Shelf(), {"do": "show", "text": text, "figures": []})["points"]["B"]
+    found = answer(Shelf(), {"do": "pull", "text": text, "point": "M", "x": pin["x"], "y": pin["y"]})
+    assert {"links.2.at.M.r": 20} == found["changes"]
+
+
+def test_figures_over_the_turn_and_papers_are_handed_out(monkeypatch) -> None:
+    monkeypatch.setattr("graphkin.table.have", lambda name: False)  # without Typst there are pages alone
+    four_bar = library_text("fourbar-150-500-300-400")
+    found = answer(Shelf(), {"do": "diagrams", "text": four_bar, "find": ["omega_3"]})
+    assert ["diagram-omega_3"] == list(found["figures"])
+    made = answer(Shelf(), {"do": "export", "text": four_bar, "kind": "papers", "name": "a.toml"})
+    files = ["answers_template.csv", "handout.html", "key.csv", "key.html", "problem.html"]
+    assert ("a-papers.zip", files) == (made["name"], ZipFile(BytesIO(b64decode(made["data"]))).namelist())
+
+
+@pytest.mark.parametrize("wrong", ["links.1.points", "links.1.at", "links.1.guides", "frame.points", "frame.guides"])
+def test_names_are_completed_beside_an_entry_that_is_none_yet(wrong: str) -> None:
+    text = changed(SLIDER, {wrong: [[5]], "links.3.points": None})
+    line = text.split("\n").index('on = "0"') + 1
+    for key, offered in (("points", "C"), ("on", "1")):
+        made = text.replace('on = "0"', f'{key} = ""')
+        found = answer(Shelf(), {"do": "complete", "text": made, "line": line, "column": len(key) + 4})
+        assert offered in [each["label"] for each in found["options"]]
+
+
+def test_units_are_not_offered_as_the_length_of_a_link() -> None:
+    text = '[units]\nlength = ""\n[links.1]\nlength = \n'
+    offered = [answer(Shelf(), {"do": "complete", "text": text, "line": n, "column": 10})["options"] for n in (2, 4)]
+    assert [["cm", "ft", "in", "m", "mm"], []] == [[each["label"] for each in some] for some in offered]
 
 
 def test_keys_and_names_are_completed() -> None:
