@@ -302,7 +302,17 @@ SLOTTED: dict[str, Any] = {  # links of later groups have their pins in slots of
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED, WELDED, SLOTTED])
+TOUCHED: dict[str, Any] = {  # the same with discs on what is left out
+    **{key: part for key, part in SLOTTED.items() if key != "pins"},
+    "links": SLOTTED["links"] | {
+        "6": SLOTTED["links"]["6"] | {"discs": {"k": {"centre": "K", "r": 4}}},
+        "7": SLOTTED["links"]["7"] | {"discs": {"k": {"centre": "J", "r": 4}}},
+    },
+    "contacts": {"T": {"between": ["6.k", "5.s"]}, "U": {"between": ["7.k", "1.s"]}},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED, WELDED, SLOTTED, TOUCHED])
 def test_groups_far_from_points_and_fits_are_drawn_where_they_are_sketched(scene: dict[str, Any]) -> None:
     result = graphkin.check(scene)
     assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}

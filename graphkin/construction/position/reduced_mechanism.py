@@ -172,7 +172,9 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
 def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> Iterator[RemovedConstraint]:
     """The removable parts of a group: bars with two hinges, links with a hinge and a guide or two guides, drivers."""
     scene = structure.scene
-    touching = {n for pair in scene.acting for n in (*pair.members, *((pair.block,) if pair.rolling else ()))}
+    place = structure.place_of[group.members[0]]
+    here = [pair for pair in scene.acting if all(structure.place_of.get(n, place) <= place for n in pair.members)]
+    touching = {n for pair in here for n in (*pair.members, *((pair.block,) if pair.rolling else ()))}
     touching |= {n for slide in scene.slides if slide.higher and slide in group.pairs for n in slide.bodies}
     keys = {d.key for d in scene.drivers}
     for name in group.members:
