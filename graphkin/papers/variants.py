@@ -22,7 +22,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Sheet, execute
 from graphkin.construction.board.steps import Ray
-from graphkin.errors import GraphkinError, SceneError, Unsolvable
+from graphkin.errors import Disagreement, GraphkinError, Unsolvable
 from graphkin.files import OwnTables, Tables
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.papers.fresh_numbers import LEVELS, Bounds, Spread, candidate, level_of, round_step, varied_keys
@@ -89,9 +89,9 @@ class Variant:
 class Unfit(Exception):
     """The error of a candidate that makes no good problem, with the reason."""
 
-    def __init__(self, why: Wording) -> None:
+    def __init__(self, why: Wording, exit_code: int = Unsolvable.exit_code) -> None:
         super().__init__(why)
-        self.why = why
+        self.why, self.exit_code = why, exit_code
 
 
 def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
@@ -197,7 +197,7 @@ def examined(
         status = Phrase(f"status {error.status}")
         raise Unfit(Phrase("status and why", status=status, why=error.reason)) from None
     except GraphkinError as error:
-        raise Unfit(error.problems[0].sentence) from None
+        raise Unfit(error.problems[0].sentence, error.exit_code) from None
     except ArithmeticError as error:
         raise Unfit(Phrase("unfit out of range", error=from_others(error))) from None
     if strict:  # what errors do together only adds to it
@@ -326,7 +326,7 @@ def _answers(
     for symbol, value in values.items():
         least = NOTHING * max(abs(other) for s, other in values.items() if s.measure == symbol.measure)
         if symbol in drawn and abs(drawn[symbol] - value) > max(1e-6 * abs(value), least, 1e-15):
-            raise SceneError.of(str(symbol), "the drawing and the solver disagree")
+            raise Disagreement.of(str(symbol), "the drawing and the solver disagree")
         yield symbol, 0.0 if abs(value) < least else abs(value) if symbol.is_vector else value.real
 
 
@@ -397,15 +397,15 @@ def work(job: Job, attempt: int) -> Variant:
 
 def _row(job: Job) -> Variant:
     """A variant of a row of data as it is; difficulties in drawing it are remarks."""
-    why = job.trouble
+    failed = Variant(job.name, why=job.trouble, exit_code=GraphkinError.exit_code)
     for base in (job.base, None) if job.base is not None else (None,):
         if job.trouble:
             break
         try:
             return examined(_named(job.source, job.name), base, job.name, strict=False)
         except Exception as error:
-            why = _reason(error)
-    return Variant(job.name, why=why)
+            failed = failed.failed(error)
+    return failed
 
 
 def _named(source: Tables, name: str) -> OwnTables:

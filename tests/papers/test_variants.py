@@ -182,6 +182,13 @@ def test_a_bad_row_is_a_failure_and_the_others_are_made(tmp_path):
     assert (["1"], ["2", "3"]) == (list(made.answers), [f.name for f in made.failures])
 
 
+@pytest.mark.parametrize(("status", "row"), [(2, "wide"), (2, "-5"), (3, "10")])
+def test_a_row_that_is_no_scene_is_not_one_that_cannot_be_assembled(status, row, tmp_path):
+    (tmp_path / "rows.csv").write_text(f"links.2.length\n{row}\n")
+    made = problem_set(FOUR_BAR, rows=tmp_path / "rows.csv", out=tmp_path)
+    assert [status] == [failure.exit_code for failure in made.failures]
+
+
 def test_a_row_hard_to_draw_is_made_with_a_remark(tmp_path):
     (tmp_path / "rows.csv").write_text("group,phi1\n1,100\n2,80\n")
     made = problem_set(SIXBAR, rows=tmp_path / "rows.csv")
