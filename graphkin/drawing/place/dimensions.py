@@ -188,9 +188,9 @@ class DimensionClearance:
             for k in left:
                 drawn[k] = drawn[k].whole(extensions)
             left = [k for k in left if self._inside(drawn[k].arcs)]
-            if not crossing:
+            if left and not crossing:
                 left = _kept(left, self._over_strokes([drawn[k] for k in left], over_lines))
-            left = self._trim(drawn, left, crossing)
+            left = left and self._trim(drawn, left, crossing)
             if left:
                 bad, runs_over = self._crossed([drawn[k] for k in left], crossing, over_lines)
                 costs[left] = np.where(bad, np.inf, runs_over * (0.0 if over else OVER))
@@ -219,10 +219,10 @@ class DimensionClearance:
         own, boxes = (of_numbers, numbers) if on_lines else (
             np.concatenate((of_numbers, of_heads)), np.hstack((numbers, heads)))  # fmt: skip
         reach = boxes[1] + SPACE
-        bad[own[stand_on(boxes[0], reach, taken).nonzero()[0]]] = True
+        bad[own[stand_on(boxes[0], reach, taken).any(axis=1)]] = True
         bad[own[meets(self.segments, boxes[0], reach)[1]]] = True
         under = taken if over_lines else self.numbers
-        bad[of_heads[stand_on(heads[0], heads[1] + SPACE, under).nonzero()[0]]] = True
+        bad[of_heads[stand_on(heads[0], heads[1] + SPACE, under).any(axis=1)]] = True
         return bad
 
     def _over_strokes(self, choices: Sequence[_Choice], over_lines: bool) -> Flags:
@@ -333,9 +333,9 @@ def _crossings(own: Points, others: Points) -> tuple[Indices, Floats]:
     p, d = own[:, 0], own[:, 1] - own[:, 0]
     q, e = others[:, 0], others[:, 1] - others[:, 0]
     # of the few whose ends lie on different sides the others are asked
-    which, what = _either_side(_areas(p, d, q), _areas(p, d, q + e)).nonzero()
-    sides = (cross(e[what], end[which] - q[what]) for end in (p, p + d))
-    both = _either_side(*sides)
+    which, what = np.divmod(_either_side(_areas(p, d, q), _areas(p, d, q + e)).ravel().nonzero()[0], max(1, len(q)))
+    way, start = e.take(what), q.take(what)
+    both = _either_side(*(cross(way, end.take(which) - start) for end in (p, p + d)))
     which, what = which[both], what[both]
     turn = cross(d[which], e[what])
     along = np.abs(turn) < ON_LINE  # on one line: no place of their own

@@ -222,7 +222,8 @@ class LabelPanel:
         places = [index.setdefault(ends(mark), len(index)) for mark in (*(label.mark for label in labels), *marks)]
         self.marks, distinct = places[: len(labels)], [*index]
         self.mark_start, self.mark_end = _ends(distinct)
-        self.mark_is_point = (self.mark_start == self.mark_end).all(axis=0)
+        self.mark_is_point = kind = (self.mark_start == self.mark_end).all(axis=0)
+        self.mistakable = (kind[:, None] == kind) & ~np.eye(len(kind), dtype=bool)  # marks for each other
         self._ask()
         if labels:
             self._find(range(len(labels)), AROUND_POINT, AROUND_VECTOR)
@@ -287,12 +288,13 @@ class LabelPanel:
         shares, gaps, turn = np.hstack([np.tile(pattern, len(own)) for own, pattern in lots])
         which = turn.astype(np.intp)
         mark, half = self.own.take(owners), self.half.take(owners, axis=1)
-        way = self.ways.reshape(2, -1).take(owners * self.ways.shape[2] + which, axis=1)
+        direction = owners * self.ways.shape[2] + which
+        way = self.ways.reshape(2, -1).take(direction, axis=1)
         feet = self.mark_start.take(mark, axis=1) + shares * (self.mark_end - self.mark_start).take(mark, axis=1)
         reach = way * half
         hold = np.minimum(np.maximum(1.6 * reach, -half), half)  # faster than clip
         middles = feet + gaps * way + np.where(which >= len(WAYS), np.abs(reach).sum(axis=0) * way, hold)
-        costs = gaps + self.disliked[owners, which] + OFF_MIDDLE * np.abs(shares - 0.5)
+        costs = gaps + self.disliked.ravel().take(direction) + OFF_MIDDLE * np.abs(shares - 0.5)
         forms = np.stack((middles, half, feet, feet))
         return Places(forms, costs, gaps, np.zeros(len(gaps), dtype=bool), owners)
 
@@ -336,8 +338,8 @@ class LabelPanel:
         crossed, heaviest = self._crossed(feet, feet + way / length * FOOT_REACH, to)
         marks = self.mark_start.take(owners, axis=1), self.mark_end.take(owners, axis=1)
         nearest = np.minimum(*(np.hypot(*(ends - feet)) for ends in marks))
-        places.costs[some] += LEADER_COST + CROSSED_COST * crossed
-        places.costs[some] += END_COST * (~self.mark_is_point[owners] & (nearest < NEAR_END))
+        costs = places.costs.take(some) + (LEADER_COST + CROSSED_COST * crossed)
+        places.costs[some] = costs + END_COST * (~self.mark_is_point.take(owners) & (nearest < NEAR_END))
         places.bad[some] |= heaviest > 1.0
 
     def _charge_beyond(self, places: Places, led: Flags) -> None:
@@ -384,8 +386,7 @@ class LabelPanel:
         middles, halves = places.forms[:2].take(close, axis=2)
         own, reach = self.own[places.owners[close]], halves + (places.gaps[close] + NEARER)
         which, what = joined(near(sides(middles, reach), sides_around(self.mark_start, self.mark_end)))
-        mine, is_point = own.take(which), self.mark_is_point
-        others = ((mine != what) & (is_point.take(mine) == is_point.take(what))).nonzero()[0]
+        others = self.mistakable.ravel().take(own.take(which) * len(self.mistakable) + what).nonzero()[0]
         which, what = which.take(others), what.take(others)
         offset = middles.take(which, axis=1) - self.mark_start.take(what, axis=1)
         along = (self.mark_end - self.mark_start).take(what, axis=1)

@@ -1,6 +1,7 @@
 """Obstacles on a figure: solid lines, dashed lines, and areas that no label may cover; the intersection of many lines
-and upright boxes at once; and the search for the cheapest of some places: the first free one for numbers of steps,
-insets, lists of names and dimensions; the clearest one for arcs of rates and arrows to far centres.
+and upright boxes at once; the first free of some places, for numbers of steps, insets and lists of names; and the
+search for the cheapest: the first clear one for dimensions, the clearest one for arcs of rates and arrows to far
+centres.
 
 Many boxes are arrays of complex numbers, by their middle and half size; many segments have their two ends in the last
 dimension.
@@ -126,11 +127,11 @@ def separated(offset: Floats, half: Floats, along: Floats) -> Flags:
 
 def meets(segments: Points, centres: Points, half: Points) -> tuple[Indices, Indices]:
     """The pairs of segments, of shape (n, 2), and boxes that meet, by their indices."""
-    (start, end), middles, halves = in_rows(segments.T).swapaxes(0, 1), in_rows(centres), in_rows(half)
+    start, end, middles, halves = map(in_rows, (*segments.T, centres, half))
     which, what = joined(near(sides_around(start, end), sides(middles, halves)))
-    offset, along = middles[:, what] - start[:, which], (end - start)[:, which]
-    met = ~separated(offset, halves[:, what], along)
-    return which[met], what[met]
+    offset, along = middles.take(what, axis=1) - start.take(which, axis=1), (end - start).take(which, axis=1)
+    met = (~separated(offset, halves.take(what, axis=1), along)).nonzero()[0]
+    return which.take(met), what.take(met)
 
 
 def crosses(lines: Floats, others: Floats) -> Flags:
@@ -226,8 +227,8 @@ def first_free(
         free &= (low.imag >= panel.top) & (high.imag <= panel.bottom)
     found: list[int | None] = []
     for first, size, own in zip(accumulate(sizes, initial=0), sizes, halves, strict=False):
-        costs = np.where(free[first : first + size], 0.0, np.inf)
-        place = cheapest(enumerate(range(size)), costs.__getitem__)
+        room = free[first : first + size].nonzero()[0]
+        place = int(room[0]) if room.size else None
         found.append(place)
         if place is not None:  # it is in the way of those that come behind it
             free &= ~stand_on(middles, reach, np.array([(middles[first + place],), (own,)]))[:, 0]
