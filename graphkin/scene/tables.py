@@ -572,7 +572,9 @@ class Form(Generic[AnyTable]):
             if isinstance(value, list) and value and isinstance(value[0], dict | list):
                 found = Phrase("found of them", count=len(value))
             within = f"{path[-2]}." if isinstance(path[-1], int) else str(path[-1])
-            return found, _SIZES.get(within, Phrase("a place is x y"))
+            in_print = str(loc[0]).startswith("printed")
+            other = Phrase("write a number 1.0 for its digits as" if in_print else "a place is x y")
+            return found, _SIZES.get(within, other)
         if kind == "string_too_long":
             limit = ctx["max_length"]
             return Phrase("is characters long", count=len(value)), Phrase("at most are possible", limit=limit)

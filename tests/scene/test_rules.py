@@ -168,6 +168,7 @@ BROKEN = {
     "Coriolis of two points": (('title = "Four-bar"', 'find = ["ak_B@1/C@2"]'), ["find", "two different points"]),
     "printed of no point": (("[driver]", "[printed]\nv_Q = 3\n[driver]"), ["printed.v_Q", "Q"]),
     "printed rate of two": (("[driver]", "[printed]\nomega_2 = [1, 2]\n[driver]"), ["printed.omega_2", "one number"]),
+    "printed list": (("[driver]", "[printed]\nv_B = [1, 2, 3]\n[driver]"), ["printed.v_B", "[1, 2, 3]", "as printed"]),
     "printed text": (("[driver]", "[printed]\nv_B = 'x'\n[driver]"), ["printed.v_B", '"x"', "as printed"]),
 }
 
