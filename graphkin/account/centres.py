@@ -129,7 +129,7 @@ def _between_moving(centres: Centres, turning: Turning) -> Driver | None:
     """The driver with which a chain begins, where it moves a link that turns relative to another such link, about a
     pin or along a guide."""
     frame, moving = centres.scene.frame.name, centres.turning
-    for driver in centres.scene.drivers:
+    for driver in [driver for driver in centres.scene.drivers if driver.rate][:1]:
         pinned = not driver.turns and centres.sheet.structure.slide(driver.key).higher
         if turning.link in driver.links and not pinned and {*driver.links} <= moving.keys() - {frame}:
             here, there = (centres.of(link, frame).point for link in driver.links)

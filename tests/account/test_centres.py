@@ -211,3 +211,14 @@ def test_links_that_do_not_move_relative_to_each_other_are_not_among_the_compare
 def test_a_pin_in_a_slot_of_the_frame_has_its_speed_alone_and_no_sliding_velocity_beside_it() -> None:
     centres = find_centres(mechanism_of_text(TRAMMEL, "trammel"))
     assert ["centre speed"] * 3 == [phrase.key for phrase in velocity_sentences(centres)]
+
+
+def test_the_rates_of_driven_links_of_an_open_chain_go_on_from_the_first() -> None:
+    arm = {
+        "frame": {"points": {"A": [0, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 60}, "2": {"points": ["B", "C"], "length": 50}},
+        "driver": [{"link": "1", "angle": 40, "omega": 3},
+                   {"link": "2", "relative_to": "1", "angle": 50, "omega": -2}],
+    }  # fmt: skip
+    rate = "ω_2 = ω_1 · P12P01 / P12P02 = ω_1 · 60.00 / 180.00 = 1 rad/s"  # 3 - 2, for 60 : 180 = 1 : 3
+    assert [rate in line for line in told(arm)].count(True) == 1
