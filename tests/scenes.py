@@ -487,3 +487,14 @@ C = [110, 39]
 E = [51, 162]
 F = [39, 95]
 """
+
+FIXED_PIN: dict[str, Any] = {  # a bar is pushed along a pin of the frame in its slot
+    "frame": {"points": {"A": [0, 0], "C": [80, 10]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 40},
+        "2": {"points": ["B", "E"], "length": 120, "guides": {"s": {"through": "B", "angle": 0}}},
+    },
+    "pins": {"C": {"of": "0", "in": "2.s"}},
+    "driver": {"slide": "C/2", "travel": 60, "velocity": 20},
+    "sketch": {"B": [20, 35]},
+}

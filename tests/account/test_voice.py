@@ -25,8 +25,10 @@ from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 from graphkin.words.symbols import sign
+from tests.construction.test_groups import BARE
 from tests.mechanisms import random_scene, redriven
 from tests.rolling_linkages import wheel_at_its_rim
+from tests.scenes import FIXED_PIN
 
 pytestmark = pytest.mark.quick
 
@@ -357,3 +359,19 @@ def test_the_contact_of_bodies_that_roll_on_each_other_is_said_to_have_one_veloc
     sheet = (checked.at_contacts or checked).sheet
     told = {phrase.key for equation in sheet.equations for phrase in reasons(sheet, equation)}
     assert expected == {key for key in told if "rolling" in key}
+
+
+def test_several_trials_are_told_with_the_parts_of_their_steps_that_close_all_gaps():
+    said = " ".join(_steps(BARE, "en"))
+    assert "left out, until it fits; between trials by proportional division" in said  # of three, not of two
+    assert "at I 43.14°, −31.35°; II 46.58°, −31.35°; III 43.14°, −27.91°" in said
+    assert "are I 0.90 mm, −9.99 mm; II 0.90 mm, 6.74 mm; III −1.10 mm, −4.57 mm" in said
+    # 0.90 − 2.00 q = 0 and −9.99 + 16.73 p + 5.42 q = 0
+    assert "taking 0.45, 0.45 of the steps from trial I to II, III together, at 44.69°, −29.80°" in said
+    assert "put in the place of I and divided so again" in said
+
+
+def test_a_fixed_pin_in_a_moving_slot_is_told_by_the_links_that_coincide():
+    said = " ".join(_reasons(FIXED_PIN, "en").values())
+    assert "$C_{2}$ and $C_{0}$ coincide at this moment; $C_{0}$ runs along a guide of link 2" in said
+    assert "/2" not in said

@@ -229,3 +229,12 @@ def test_a_prepared_mechanism_has_no_column_of_the_whole_turn(scene: str, name: 
 def test_a_sweep_refuses_what_is_no_column_by_what_it_is(name: str, said: str) -> None:
     with pytest.raises(graphkin.CallError, match=said):
         graphkin.sweep(SIXBAR, find=[name])
+
+
+@pytest.mark.parametrize("part", ["an_D", "at_D"])
+def test_a_part_of_no_rotation_is_refused_by_its_name_on_the_drawing_as_in_numbers(part: str) -> None:
+    said = f"{part}: no link makes this part; D turns about no fixed point; write {part}/A with A on its link"
+    for call in (graphkin.check, graphkin.solve):
+        with pytest.raises(graphkin.CallError) as refused:
+            call("sixbar-guide-40deg", find=[part])
+        assert said == str(refused.value)

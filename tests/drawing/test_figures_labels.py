@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
@@ -18,6 +19,7 @@ from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
 from tests import EVERYTHING
 from tests.drawn import figures
+from tests.scenes import FIXED_PIN
 
 POSITIONS = 24 if EVERYTHING else 3
 # all positions of all scenes take minutes; else each scene stands in one of three
@@ -51,3 +53,21 @@ def test_the_letters_of_a_trial_polygon_bear_its_numeral():
     figure = graphkin.draw("double-butterfly", figures=("acceleration",)).figures["acceleration"]
     named = {thing.id: thing.string for thing in walk(figure.children) if isinstance(thing, Text)}
     assert "j′II" == named["label-detail-trial-acceleration-2-a_J"]
+
+
+MOVING_PIN = {
+    **FIXED_PIN,
+    "links": {
+        "1": FIXED_PIN["links"]["1"],
+        "2": {"points": ["C", "E"], "length": 120, "guides": {"s": {"through": "C", "angle": 0}}},
+    },
+    "pins": {"B": {"of": "1", "in": "2.s"}},
+    "driver": {"slide": "B/2", "travel": 65, "velocity": 20},
+}
+
+
+@pytest.mark.parametrize(("scene", "named"), [(FIXED_PIN, "vC2"), (MOVING_PIN, "vB2")])
+def test_the_arrow_at_a_driven_pin_in_a_slot_is_named_as_its_given_rate(scene: dict[str, Any], named: str) -> None:
+    figure = graphkin.draw(scene, figures=("mechanism",)).figures["mechanism"]
+    (label,) = (t for t in walk(figure.children) if isinstance(t, Text) and t.id.startswith("label-driver"))
+    assert named == label.string

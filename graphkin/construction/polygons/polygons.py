@@ -440,7 +440,7 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
         tail, tip = plot.end(order, to) if to else 0j, plot.end(order, of)
         role = PARTS.get(symbol.kind) or ("relative" if to else "resultant")
         if symbol.kind in ("an", "at"):
-            tail = plot.end(order, to := to or _pivot(plot, of))
+            tail = plot.end(order, to := to or _pivot(plot, of, symbol))
             along = _joining(plot, symbol, of, to)
             corner = tail + along * dot(tip - tail, along)
         elif to is not None and role in ("coriolis", "sliding"):
@@ -472,14 +472,14 @@ def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> comp
     raise CallError(Problem(str(symbol), *said))
 
 
-def _pivot(plot: Polygons, of: PointRef) -> PointRef:
+def _pivot(plot: Polygons, of: PointRef, symbol: Symbol) -> PointRef:
     """The point of the frame on the same link."""
     ground = plot.links[plot.ground].points
     points = (point for name in _holders(plot, of) for point in plot.links[name].points)
     pivot = next((point for point in points if point in ground and point != of.point), None)
     if pivot is None:
-        said = Phrase("its link has no fixed pivot to which"), Phrase("name the other point too for example an_c")
-        raise CallError(Problem(f"{of}", *said))
+        wanted = Phrase("turns about no fixed point write a with", name=of, symbol=symbol)
+        raise CallError.of(str(symbol), "no link makes this part", wanted)
     return PointRef(pivot)
 
 

@@ -10,6 +10,7 @@ import math
 from cmath import phase
 from collections.abc import Collection, Iterator
 
+from graphkin.account.given import slide_index
 from graphkin.account.notation import Notation
 from graphkin.account.voice import SAME
 from graphkin.construction.board.sheet import Sheet
@@ -424,9 +425,9 @@ def _slide_arrow(here: MechanismOnPaper, driver: Driver) -> Piece:
     colour, id = here.colour(b.slide.a), f"driver-{driver.key.replace('/', '-')}"
     head = arrowhead(tip, tip - tail, POINTER.head_length, 1.0, colour)
     line = Line(tail, tip, Stroke(0.25, (), colour), covered=1.6)
-    index = b.slide.a if b.slide.b == here.ground else b.slide.a + b.slide.b
     letter = "V" if here.letters.convention == "us" else "v"
-    text = Text(0j, rich(sign(letter, index)), "start", strokes.BLACK, f"label-{id}", ("label",))
+    named = rich(sign(letter, slide_index(here.sheet, driver.key)))
+    text = Text(0j, named, "start", strokes.BLACK, f"label-{id}", ("label",))
     arrow = Group((line, head), id=id, classes=("driver",))
     piece = Piece({"mechanism": (arrow,)}, (Label(text, (tail, tip), (phase(side),)),))
     return dated(piece, here.since(driver.key.split("/")[0]))
