@@ -478,10 +478,8 @@ def _with_starts(structure: Structure) -> Structure:
 
 def started(structure: Structure) -> Structure:
     """The mechanism at the scene's own position, in which drivers replace the rolling of groups whose links move each
-    other by it.  The structure itself where there are none."""
+    other by it."""
     groups = [e for e in structure.larger_groups if e.starts]
-    if not groups:
-        return structure
     scene = structure.scene
     names = [r.name for g in groups for r in g.rolling]
     drivers = (*scene.drivers, *(d for g in groups for d in g.starts))

@@ -33,3 +33,21 @@ def test_a_line_is_set_in_latex_symbol_by_symbol(latex: str, line: RichText):
 def test_where_gears_or_cams_move_links_it_is_not_said_that_nothing_but_the_driver_moves(scene: str):
     said = graphkin.solve(scene).loops().plain
     assert "cams, gears or rolling contacts move what no loop of bars and guides alone gives" == said
+
+
+def test_a_chosen_loop_goes_along_guides_to_the_pins_on_them() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0], "C": [0, -150]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40},
+            "2": {"points": ["B"], "on": "3.s"},
+            "3": {"points": ["C"], "guides": {"s": {"through": [0, 20], "angle": 10}}},
+        },
+        "driver": {"link": "1", "angle": 30, "omega": 5},
+        "loops": {"I": ["A", "B", "C"]},
+    }
+    solved = graphkin.solve(scene)
+    (block,), position = solved.loops().data, solved.data["positions"][0]
+    link, slide = position["links"]["3"], position["slides"]["2/3"]
+    assert [link["omega"], slide["velocity"]] == pytest.approx(block["rates"])
+    assert [link["alpha"], slide["acceleration"]] == pytest.approx(block["second_rates"])

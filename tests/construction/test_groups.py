@@ -547,3 +547,20 @@ def test_drawing_and_solver_of_a_random_larger_group_are_right_to_nine_digits(se
     drawn, solved, readings = worst(random_driven(seed))
     assert readings >= 6
     assert max(drawn, solved) < 1e-9
+
+
+def test_a_group_of_two_trial_drivers_is_found_where_one_point_of_it_is_sketched() -> None:
+    found = graphkin.check({**BARE, "sketch": {"B": BARE["sketch"]["B"]}})
+    assert found.ok
+    sketched = {str(row.symbol): row.exact for row in graphkin.check(BARE).report.rows}
+    assert sketched == pytest.approx({str(row.symbol): row.reading.value for row in found.report.rows}, abs=1e-9)
+
+
+def test_trial_polygons_of_a_mechanism_that_nothing_but_a_slide_drives_are_divided() -> None:
+    scene = graphkin.read("contour-four-bars").to_dict()
+    frame = {**scene["frame"], "guides": {"g": {"through": [0, 30], "angle": 10}}}
+    links = {**scene["links"], "2": {"points": ["B"], "on": "1.g"}}
+    driver = {"slide": "2", "travel": -5, "velocity": 300, "acceleration": 100}
+    result = graphkin.check({**scene, "frame": frame, "links": links, "driver": driver})
+    assert {"velocity", "acceleration"} == {step.diagram for step in result.sheet.steps if isinstance(step, RateTrial)}
+    assert result.ok

@@ -18,6 +18,7 @@ from tests.rolling_linkages import (
     cylinder_and_wheel,
     five_bar_by_its_middle,
     planet_by_a_rod,
+    rack_on_a_rocker,
     wheel_at_its_rim,
     wheel_on_a_rocker,
 )
@@ -97,3 +98,16 @@ def test_a_wheel_in_a_ring_has_at_the_contact_what_both_radii_give():
 @pytest.mark.parametrize("made", [wheel_at_its_rim, wheel_on_a_rocker])
 def test_a_wheel_that_rolls_is_not_drawn_a_second_time_at_its_contact(made):
     assert check(made()).at_contacts is None
+
+
+def test_a_rack_starts_at_its_travel_as_at_the_angle_of_its_wheel():
+    scene = rack_on_a_rocker()
+    wheel, slide = (solve(scene).data["positions"][0][kind] for kind in ("links", "slides"))
+    del scene["links"]["3"]["start"]
+    scene["links"]["5"]["start"] = slide["5/4"]["travel"]
+    found = solve(scene).data["positions"][0]["links"]["3"]
+    assert [wheel["3"][key] for key in found] == pytest.approx([*found.values()])
+    result = check(scene)
+    assert result.ok
+    (start,) = (step for step in result.sheet.steps if step.reason == "rolling")
+    assert slide["5/4"]["travel"] == pytest.approx(start.mm * result.sheet.scales.length * 1e3)

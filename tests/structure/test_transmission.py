@@ -40,3 +40,10 @@ def test_the_joint_of_a_pin_in_a_slot_is_named_by_the_link_that_has_the_pin() ->
 def test_a_link_on_which_a_wheel_rolls_is_pushed_along_no_line_that_is_known_before() -> None:
     with pytest.raises(CallError, match="link 5 is driven through no joint"):
         graphkin.solve(wheel_on_a_rocker(), find=["pressure_5"])
+
+
+def test_a_crank_presses_the_block_in_its_pin_square_to_the_guide() -> None:
+    solved = graphkin.solve("sixbar-guide-40deg", find=["theta_1", "theta_3", "gamma_1-2"])
+    apart = math.radians(float(solved["theta_3"][0]) + 90.0 - float(solved["theta_1"][0]))
+    acute = math.degrees(math.atan2(abs(math.sin(apart)), abs(math.cos(apart))))
+    assert pytest.approx(acute) == float(solved["gamma_1-2"][0])

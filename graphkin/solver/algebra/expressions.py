@@ -173,9 +173,6 @@ class Real:
             return self + Real(self.graph, b.line[1])
         return self.graph.line("sub", self.at, b.at)
 
-    def __rsub__(self, other: float) -> Real:
-        return self._of(other) - self
-
     @overload
     def __mul__(self, other: Real | float) -> Real: ...
     @overload
@@ -234,16 +231,9 @@ class Real:
             return all(Real(self.graph, k).never_negative for k in self.line[1:])
         return bool(kind == "const" and self.line[1] >= 0)
 
-    def conjugate(self) -> Real:
-        return self
-
     @property
     def real(self) -> Real:
         return self
-
-    @property
-    def imag(self) -> Real:
-        return self.graph.const(0)
 
 
 class Vec:
@@ -285,10 +275,6 @@ class Vec:
         return Vec(self.real * b.real - self.imag * b.imag, self.real * b.imag + self.imag * b.real)
 
     __rmul__ = __mul__
-
-    def __truediv__(self, other: Real | float) -> Vec:
-        """By a real number."""
-        return Vec(self.real / other, self.imag / other)
 
     def __eq__(self, other: object) -> bool:
         """Whether it is that number in every mechanism."""

@@ -220,9 +220,6 @@ class ErrorBound(Generic[R]):
     def __iter__(self) -> Iterator[R]:
         return iter((self.position, self.velocity, self.acceleration, self.angle, self.omega, self.alpha))
 
-    def __add__(self, other: ErrorBound[R]) -> ErrorBound[R]:
-        return ErrorBound(*(a + b for a, b in zip(self, other, strict=True)))
-
     def of(self, measure: Measure) -> R:
         """The bound of a length, an angle, or a derivative of one by time; infinite beyond the second."""
         known = self.of_turning if measure.angle else self.of_point
