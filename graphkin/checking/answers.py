@@ -140,6 +140,7 @@ def _answers(
     # numbers are driver values, unless all of them are names of positions
     positions = scene.question.positions
     by_name = positions is not None and bool(places) and places <= set(positions.names)
+    by_signs = {i for i in ways if any(plain_text(cells[i]) == "+" for _, cells in rows)}  # there - is no blank
     answers = []
     for line, cells in rows:
         told, at = {role: cells[i] for role, i in roles.items()}, None
@@ -153,7 +154,8 @@ def _answers(
         made: dict[Symbol, Cell] = {}
         for i, (symbol, unit) in values.items():
             if sheet.heads[i] not in silent.get(line, ()):
-                told_ways = [cells[k] for k, of in ways.items() if of == symbol]
+                own = [(k, cells[k]) for k, of in ways.items() if of == symbol and cells[k]]
+                told_ways = [way for k, way in own if k in by_signs or not is_blank(way)]
                 made[symbol] = _cell(scene, symbol, unit, cells[i], told_ways, sheet.sign)
         answers.append(Answers(person, at, made, variant=told.get("variant", ""), id=told.get("id", ""), marks=marks))
     if problems:
@@ -166,7 +168,7 @@ def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence
     if is_blank(text):
         return None
     try:
-        way = next((read_way(told, symbol) for told in ways if not is_blank(told)), None)
+        way = next((read_way(told, symbol) for told in ways), None)
         return read_cell(text, symbol, scene.units, unit, sign, way)
     except ValueError as error:
         return text, error.args[0]

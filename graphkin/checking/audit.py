@@ -43,7 +43,7 @@ FAR, FEW_DIGITS = 0.1, 3  # but so far off, to this many digits, they do
 COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
 LEAST_TURN = math.radians(1.5)  # directions are read off with a protractor
 TELLING = 4  # digits from which a number can be told to be another
-MOST_PREDICTED = 4  # positions of a long table that are drawn, to see what a pencil keeps within
+MOST_PREDICTED = 72  # positions of a table that are drawn, to see what a pencil keeps within; in others the nearest
 MOST_EXPLAINED = 3  # rows of which the drawing is asked what their wrong values look like
 
 

@@ -90,8 +90,9 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     problems = []
     for name, weight in weights.items():
         symbol = spelling.symbol(str(name))
-        if isinstance(weight, bool) or not isinstance(weight, Real) or not 0 <= weight < 1e6:
-            problems.append(Problem(f"grading {name}", "found value", "give points 0 or more", value=f"{weight!r:.40}"))
+        if isinstance(weight, bool) or not isinstance(weight, Real) or not 0 <= weight <= 1e6:
+            problems.append(Problem(f"grading {name}", "found value", "give points from 0 to a million",
+                                    value=f"{weight!r:.40}"))
         elif name in PARTS:
             scheme[str(name)] = float(weight)
         elif symbol is not None:

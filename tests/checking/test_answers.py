@@ -84,3 +84,46 @@ def test_a_value_in_the_unit_of_its_head_is_shown_with_it(tmp_path):
     audited = graphkin.audit(slider_crank(100, 280), answers=str(table))
     assert ["0.94888 m/s", "22.79 cw (rpm)", "5907.2"] == list(audited.table["printed"])
     assert ["right"] * 3 == list(audited.table["verdict"])
+
+
+FOUR_BAR = "fourbar-150-500-300-400"
+
+
+def verdicts(tmp_path, text, **more):
+    (tmp_path / "a.csv").write_text(text)
+    return [one["verdict"] for one in graphkin.audit(FOUR_BAR, answers=tmp_path / "a.csv", **more).data["values"]]
+
+
+def test_a_minus_in_a_column_of_senses_is_a_sense_where_a_plus_is_one(tmp_path):
+    assert ["right", "wrong"] == verdicts(tmp_path, "name,omega_3,sense\nLi,5.19,+\nWu,5.19,-\n")
+    assert ["right", "right"] == verdicts(tmp_path, "name,omega_3,sense\nLi,5.19,ccw\nWu,5.19,-\n")
+
+
+@pytest.mark.parametrize(
+    ("text", "more", "said"),
+    [
+        ("name,at,omega_3\nLi,x,5\n", {}, 'line 2, at: "x" is no driver value'),
+        ("name,variant,omega_3\nLi,3,5\n", {"variants": {"1": FOUR_BAR}}, "variant 3: is not in the set; known"),
+        ('name,omega_3\n"Li,5\n', {}, "a.csv: is no table: unexpected end of data; save it as CSV"),
+        ("name,omega_3\nLi,5\n", {"grading": {"omega_3": 1e7}},
+         "grading omega_3: found 10000000.0; give points, from 0 to 1000000"),
+        ("name,omega_3\nLi,5\n", {"grading": {"equations": True}}, "grading equations: found True; give points"),
+    ],
+)
+def test_answers_that_cannot_be_judged_are_refused_by_name(tmp_path, text, more, said):
+    with pytest.raises(CallError, match=re.escape(said)):
+        verdicts(tmp_path, text, **more)
+
+
+def test_a_row_that_is_not_reached_is_told_as_it_was_written():
+    rocker = {
+        "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 300}, "2": {"points": ["B", "C"], "length": 200},
+            "3": {"points": ["D", "C"], "length": 150},
+        },
+        "driver": {"link": "1", "angle": 20, "omega": 10},
+        "printed_rows": [{"at": at, "omega_3": 3, "by": "computation"} for at in (20, 120)],
+    }
+    with pytest.raises(graphkin.Unsolvable, match="driver 1 at 120°: not assembled"):
+        graphkin.audit(rocker)

@@ -359,3 +359,14 @@ def test_own_values_with_which_trial_polygons_cannot_be_divided_are_judged_all_t
     }
     own = {"alpha_2": 34.0, "v_B": 630, "omega_3": -5.96}
     assert {"wrong"} == {entry["verdict"] for entry in graphkin.audit(scene, answers={"A": own}).data["values"]}
+
+
+def test_each_row_of_a_drawn_table_is_held_against_the_pencil_at_its_own_position() -> None:
+    four_bar = graphkin.read("fourbar-150-500-300-400").to_dict() | {"printed": {"by": "drawing"}}
+    exact = graphkin.solve(four_bar, sweep=8)
+    rows = [{"at": 45 * k, "omega_3": omega + 1.0} for k, omega in enumerate(exact["omega_3"].tolist())]
+    alone, together = (
+        [value["bound"] for few in parts for value in graphkin.audit(four_bar | {"printed_rows": few}).data["values"]]
+        for parts in ([rows[:4], rows[4:]], [rows])
+    )
+    assert pytest.approx(alone) == together

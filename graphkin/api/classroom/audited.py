@@ -329,16 +329,16 @@ def judged_table(
     values = exact_values(solved_here(scene, None), turning)
     reach, driver = driver_range(structure_of(scene)), scene.drivers[0]
     places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(driver.key) for who in table]
-    here = driver.values[0]
-    motion = reach.motion(reach.offsets(np.array([here if place is None else place for place in places])))
-    shown = [scene.unit_of(driver).said(float(stands)) for stands in motion.values[:, 0]]
+    stands = [driver.values[0] if place is None else place for place in places]
+    motion = reach.motion(reach.offsets(np.array(stands)))
+    shown = [scene.unit_of(driver).said(place) for place in stands]
     if not motion.ok.all():
         k = int(np.argmin(motion.ok))
         where = Phrase("driver at", key=driver.key, where=shown[k])
         raise Unsolvable(str(motion.status[k]), Problem(where, motion.said(k)))
     names = [
-        who.at if isinstance(who.at, str) else f"{driver.key} = {stands}"
-        for who, stands in zip(table, shown, strict=True)
+        who.at if isinstance(who.at, str) else f"{driver.key} = {place}"
+        for who, place in zip(table, shown, strict=True)
     ]
     return judge_table(
         motion, [(who.values, who.by) for who in table], {s: float(value.real) for s, value in values.items()}, names,
