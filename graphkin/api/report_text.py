@@ -291,9 +291,9 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
     flywheel, units = turn.flywheel, turn.scene.units
     if flywheel is None:
         return []
-    head = word("flywheel", language) + word("colon", language)
     if isinstance(flywheel, Unsolvable):
-        return [head + say(flywheel.reason, language)]
+        return [say(flywheel.reason, language)]
+    head = word("flywheel", language) + word("colon", language)
     moment, inertia = units.of("moment"), units.of("inertia")
     said = [
         say(Phrase("driving moment is", moment=f"{moment.of(flywheel.driving):.8g} {moment.text}"), language),

@@ -205,11 +205,6 @@ class FollowerLaw:
         """The part in which an angle (rad) lies."""
         return self.parts[bisect_right(self.starts, self.reduced(angle)) - 1]
 
-    def piece(self, angle: float) -> LiftPiece:
-        """The piece in which an angle (rad) lies."""
-        within = self.reduced(angle)
-        return next(piece for piece in reversed(self.pieces) if piece.start <= within)
-
     def at(self, angle: float) -> Lift:
         """Lift and derivatives at an angle of the cam (rad), of any turn."""
         return self.part(angle).at(self.reduced(angle))

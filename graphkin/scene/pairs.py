@@ -527,10 +527,6 @@ class LawCam:
         """The point of the follower that the law moves: the roller's centre, the edge; "" where it has no name."""
         return self.motion.tip if isinstance(self.motion, SwingingFollower) else ""
 
-    def degree(self, angle: float) -> float:
-        """The angle of the law (rad) at an angle of the link's own axis."""
-        return self.law.reduced(self.sense * angle)
-
     def leaves(self, lift: float, sense: int) -> tuple[float, float]:
         """The angle of the link's own axis (rad, 0 to a turn) from which the follower leaves its least or greatest lift
         where the cam turns in a sense, the smallest of several; and the angle of the dwell before it."""

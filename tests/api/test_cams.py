@@ -314,3 +314,17 @@ def test_a_cam_drawn_off_by_a_tenth_of_a_degree_or_a_thousandth_is_not_written(d
     with pytest.raises(Disagreement, match=r"cams\.1: its drawing by inversion is off the computed cam"):
         draw(name).write(tmp_path / "out")
     assert not (tmp_path / "out").exists()
+
+
+def test_a_face_on_a_profile_that_turns_back_is_told_the_base_circle_from_which_it_touches_it():
+    law = [{"to": 60, "rise": 28, "by": "harmonic"}, {"to": 120, "fall": 28, "by": "harmonic"}, {"to": 360}]
+    steep = graphkin.read("cam-flat-face").replace("cams.1.law", law).replace("cams.1.base.r", 30)
+    (made,) = graphkin.cam(steep).made
+    least = 28 / 2 * (180 / 60) ** 2 - 28  # base + lift + second derivative at the top of a harmonic rise
+    (told,) = re.findall(r"turns back on itself.* from r = ([\d.]+) mm on", "\n".join(made.sentences("en")))
+    assert pytest.approx(least, abs=1e-3) == float(told)
+
+
+def test_a_cam_that_only_dwells_has_no_pressure_angle():
+    (made,) = graphkin.cam(graphkin.read("cam-flat-face").replace("cams.1.law", [{"to": 360}])).made
+    assert "pressure" not in "\n".join(made.sentences("en"))

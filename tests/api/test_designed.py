@@ -170,6 +170,11 @@ def test_the_greatest_offset_is_just_not_reached():
     assert found({**SLIDER, "offset": most * 0.999}).ok
 
 
+def lying(first):
+    """A bar that lies in three places, the first of which is given."""
+    return {"kind": "three-positions", "positions": [first, {"B": [9, 9], "C": [18, 9]}, {"B": [9, 20], "C": [9, 29]}]}
+
+
 @pytest.mark.parametrize(
     ("design", "said"),
     [
@@ -185,11 +190,28 @@ def test_the_greatest_offset_is_just_not_reached():
         ({**PLACES, "A": [0, 0]}, "design.D: is missing"),
         ({**PLACES, "angles": [10, -8, -35]}, "design.angles: unknown key"),
         ({"kind": "limits", "A": [0], "D": [1, 1], "rocker": 1, "angles": [1, 2]}, "a place is"),
+        ({"stroke": 50}, "design.kind: is missing; one of slider-crank, crank-rocker, guide-bar, limits"),
+        (lying({"B": [0, 0]}), "design.positions.1: has neither C nor angle; a bar lies where B and C lie"),
+        (lying({"B": [0, 0], "C": [9, 0], "angle": 0}), "design.positions.1: has both C and angle"),
+        (lying({"B": [0, 0], "angle": 0}), "design.BC: is missing; length of the bar, since its places are told by"),
+        (lying({"B": [0, 0], "C": [9, 0]}) | {"BC": 8}, "design.BC: found 8; B and C of position 1 lie 9 apart"),
+        (lying({"B": [0, 0], "C": [0, 0]}), "design.positions.1: B and C lie at one place; a bar has a length"),
+        (lying({"B": [0, 0], "C": [8, 0]}), "design.positions.2: the bar is 9 long; in position 1 8"),
     ],
 )
 def test_a_wrong_file_is_told_by_name(design, said):
     with pytest.raises(graphkin.SceneError, match=re.escape(said)):
         found(design)
+
+
+@pytest.mark.parametrize(("file", "said"), [
+    ({"links": {}, "design": SLIDER}, "links: unknown table; this is a scene; a design file has a table [design]"),
+    ({"units": {}}, "design: is missing; a design file has a table [design] with kind and its data"),
+    ("slider-crank-s50", 'no design of this name comes along; did you mean "slider-crank-stroke-50"?'),
+])  # fmt: skip
+def test_what_is_no_design_file_is_told_so(file, said):
+    with pytest.raises(graphkin.SceneError, match=re.escape(said)):
+        graphkin.design(file)
 
 
 def test_all_problems_of_a_file_are_told_at_once():

@@ -290,3 +290,14 @@ def test_a_K_that_leaves_out_dwells_says_so() -> None:
         "driver": {"link": "1", "angle": 30, "omega": 10},
     }  # fmt: skip
     assert "K = 2 (θ = 60°, dwells not counted)" in graphkin.sweep(scene, positions=4).text
+
+
+def test_where_no_link_turns_fully_the_flywheel_is_named_once():
+    boom = graphkin.read("boom-lifted").to_dict() | {"flywheel": {"on": "1", "delta": 0.05}}
+    told = "flywheel: the mechanism runs through no cycle: one driver must turn fully; leave [flywheel] out"
+    assert told in graphkin.sweep(boom).text.split("\n")
+
+
+def test_a_train_that_closes_after_several_turns_says_so():
+    train = graphkin.read("geared-five-bar").replace("gears.g.teeth", [20, 30])
+    assert "turns fully; the motion repeats after 3 turns of the driver" in graphkin.sweep(train).text
