@@ -451,7 +451,7 @@ _INCHES = re.compile(
     r"(?!\s+(?:the|its|a|direction|sense|positive|negative|[+-]?[xy]|mm|cm|m|rad|deg)\b)", re.IGNORECASE,
 )  # fmt: skip
 _PER_TIME = re.compile(r"(?<=[\d\s])\b1\s*/\s*(?=s|min)")
-_SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?![\d.,]*\d)(?:[.,]\d+)?")
+_SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?!\d)(?:[.,]\d+)?(?![\d.,]*\d)")
 _HAT = r"\s*[*·]?\s*(?:\\?hat)?\{{?[{0}]\u0302?\}}?"
 _UNIT_VECTORS = re.compile(rf"({NUMBER}){_HAT.format('iîI')}\s*([+-])\s*({NUMBER}){_HAT.format('jĵJ')}(?![A-Za-z])")
 _LABELLED = re.compile(
@@ -554,7 +554,7 @@ def _joined(text: str, symbol: Symbol) -> str:
     if match is None:
         return text
     whole = match[0].replace(" ", "")
-    if symbol.is_vector and text.startswith(("(", "[")):
+    if symbol.is_vector and (text.startswith(("(", "[")) or not whole.isdigit()):
         return text
     if symbol.is_vector:
         raise ValueError(Phrase("cell two components", cell=text[:40], number=whole))

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import pytest
 
 import graphkin
 from graphkin.errors import CallError
+from graphkin.scene.spelling import read_cell, read_way
+from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Units
 from tests.command import run
 from tests.scenes import slider_crank
 
@@ -127,3 +131,19 @@ def test_a_row_that_is_not_reached_is_told_as_it_was_written():
     }
     with pytest.raises(graphkin.Unsolvable, match="driver 1 at 120°: not assembled"):
         graphkin.audit(rocker)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("1 220.5", 1220.5), ("12 345.6 rad/s", 12345.6), ("1 220", 1220.0), ("1'220.5", 1220.5), ("5.19 1/s", 5.19)],
+)
+def test_thousands_parted_by_spaces_are_one_number_with_its_decimals(text, value):
+    assert value == read_cell(text, Symbol.parse("omega_3"), Units(), "", ",", None).value
+
+
+@pytest.mark.parametrize(
+    ("text", "degrees"),
+    [("NNW", 112.5), ("12° clockwise from -x", 168.0), ("12° cw from y", 78.0), ("12° W of N", 102.0), ("30", 30.0)],
+)
+def test_directions_are_read_from_words_and_axes(text, degrees):
+    assert pytest.approx(degrees) == math.degrees(read_way(text, Symbol.parse("v_C")).angle)
