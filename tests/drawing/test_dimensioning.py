@@ -185,3 +185,18 @@ def test_a_dimension_runs_over_a_line_where_all_its_places_do():
     taken = DimensionClearance(around, None).take(drawn)
     assert taken is not None
     assert 22.0 == pytest.approx((taken[0].end - 20 - 50j).imag - 1.5)
+
+
+def test_the_radius_of_a_slot_without_room_for_a_dimension_stands_at_the_slot() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [120, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30},
+            "3": {"points": ["D"], "guides": {"s": {"centre": [-60, 60], "r": 70, "ends": [-80, 60]}}},
+        },
+        "pins": {"B": {"of": "1", "in": "3.s"}},
+        "driver": {"link": "1", "angle": 60, "omega": 10},
+    }
+    figure = draw(scene, figures=("mechanism",)).figures["mechanism"]
+    texts = [thing.string for thing in walk(figure.children) if isinstance(thing, Text)]
+    assert [1, 0] == [texts.count(said) for said in ("R 70", "70")]

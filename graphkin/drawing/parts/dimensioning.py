@@ -130,6 +130,8 @@ def _bars(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | 
             runs = rich(printed(as_given(value)), SIZE)
             long = abs(ends[1] - ends[0]) >= LEAST
             parts = room.take(dimension(*ends, offset, runs) for offset in OFFSETS) if long else None
+            if parts is None and link.name in scene.replacing:  # no bar is drawn: its length is the radius of a slot
+                runs, ends = rich(f"R {printed(as_given(value))}", SIZE), (ends[1], ends[1])
             yield parts or Label.of(runs, ends, f"label-length-{one}{other}", rank=1, classes=("length",))
 
 
