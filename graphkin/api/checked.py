@@ -230,8 +230,10 @@ def check(
 def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
     """Draw a plan and compare all its readings with the solver at the same position; sliding contacts also at the
     contact itself, by the same hands on another sheet."""
-    from graphkin.solver.values import exact_values
+    from graphkin.solver.values import as_drawn, exact_values, forces_here
 
+    if planned.has_forces and hand is not EXACT:  # before hands draw them: it tells best why there are none
+        forces_here(as_drawn(motion, planned.structure))
     other, other_hand = planned.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
     sheet = execute(planned, hand)
     if hand is EXACT:

@@ -290,7 +290,8 @@ class Forces:
         for spring in loading.springs:
             force = np.abs(self.values[Symbol("P", name=spring.name)])
             length = np.abs(np.subtract(*spring_ends(motion, spring)))
-            error = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
+            with np.errstate(divide="ignore", invalid="ignore"):  # of a spring without a line
+                error = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
             for link in spring.links:
                 if link in self._row:
                     right[self._row[link] : self._row[link] + 3] += np.nan_to_num(error)

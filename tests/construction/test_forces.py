@@ -843,3 +843,12 @@ def test_a_pencil_reads_fifty_newtons_beside_a_meganewton_to_a_few_in_a_hundred(
     checked = graphkin.check(BESIDE_A_MEGANEWTON, instrument="pencil", seed=1)
     assert checked.ok
     assert checked["F_0/5"].uncertainty < 0.03 * abs(checked["F_0/5"].exact)
+
+
+@pytest.mark.parametrize("balance", [{"on": "5"}, {"on": "5", "at": "D", "angle": 90}])
+def test_what_cannot_be_balanced_is_refused_alike_whatever_hand_draws(balance):
+    scene = graphkin.read("sixbar-guide-40deg").to_dict()
+    scene |= {"loads": {"P": {"on": "5", "at": "D", "force": 100, "angle": 0}}, "balance": balance}
+    for hand in ("exact", "pencil"):
+        with pytest.raises(Unsolvable, match=r"^driver 1: dead point: the balance does no work in this position"):
+            graphkin.check(scene, instrument=hand)

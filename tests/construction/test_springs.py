@@ -190,3 +190,13 @@ def test_a_value_with_the_whole_length_for_the_stretch_is_called_by_its_slip():
 def test_the_sheet_of_forces_says_how_the_force_was_measured():
     figure = graphkin.draw(ROCKER, figures=["forces"]).figures["forces"].content("svg").decode()
     assert "140.12 N, a pull on link 3" in re.sub(r"<[^>]+>", "", figure)
+
+
+def test_a_spring_whose_points_coincide_is_refused_where_it_is_drawn_and_no_warning_where_it_is_solved(recwarn):
+    scene = graphkin.read(ROCKER).to_dict()
+    scene["frame"]["points"]["G"] = graphkin.solve(scene).data["positions"][0]["points"]["E@3"]["position"]
+    assert "forces" not in graphkin.solve(scene).data["positions"][0]
+    for hand in ("exact", "pencil"):
+        with pytest.raises(Unsolvable, match=r"^springs.R: its two points coincide in this position"):
+            graphkin.check(scene, instrument=hand)
+    assert [] == [*recwarn]
