@@ -236,9 +236,10 @@ def value_at(scene: Mechanism, name: str) -> float:
 
 
 def _driver(scene: Mechanism, name: str) -> Driver:
-    for driver in scene.drivers:
-        if name == driver.key or name == driver.key.split("/")[0]:
-            return driver
+    # the whole key first: a link that slides may be turned too
+    named = [d for d in scene.drivers if name == d.key] + [d for d in scene.drivers if name == d.key.split("/")[0]]
+    if named:
+        return named[0]
     raise CallError.of(f"at {name}", "no driver of that name", did_you_mean(name, [d.key for d in scene.drivers]))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 
 import numpy as np
@@ -150,3 +151,18 @@ def test_a_chart_says_that_it_cannot_be_pickled():
     chart = next(iter(graphkin.sweep("slider-crank-s50-e16-K1.2", positions=4).figures.values()))
     with pytest.raises(graphkin.CallError, match="a chart: is drawn by a function and cannot be pickled; pick"):
         pickle.dumps(chart)
+
+
+def test_a_link_that_is_turned_and_pushed_is_moved_by_the_driver_that_is_named():
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [30, 60]}, "guides": {"g": {"through": [0, -90], "angle": 40}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 60}, "2": {"on": "0.g", "points": ["C"]}, "3": {"points": ["D"]},
+        },
+        "pins": {"B": {"of": "1", "in": "3"}},
+        "driver": [{"slide": "2/0", "travel": 95, "velocity": -140},
+                   {"link": "2", "angle": -80, "omega": 10, "relative_to": "1"}],
+    }  # fmt: skip
+    turned, pushed = (graphkin.solve(scene, at={key: -25}).data["positions"][0]["driver"] for key in ("2", "2/0"))
+    assert {"2/0": 95, "2": math.radians(-25)} == pytest.approx(turned)
+    assert {"2/0": -25, "2": math.radians(-80)} == pytest.approx(pushed)
