@@ -37,6 +37,7 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_bytes
 from graphkin.errors import CallError, Disagreement
 from graphkin.scene import mechanism_of
+from tests.mechanisms import random_scene
 
 CLASSROOM = ("fourbar-150-500-300-400", "slider-crank-offset", "shaper-scheme-2", "sixbar-420rpm", "whitworth")
 
@@ -279,3 +280,9 @@ def test_centres_whose_lines_are_a_tenth_of_a_degree_off_are_not_written(made, m
     monkeypatch.setattr(construction_centres, "wedge", turned)
     with pytest.raises(Disagreement, match=r"P35: lies 0\.\d+° off its computed place"):
         made()
+
+
+def test_centres_that_rounding_alone_moves_are_drawn_a_hundredth_of_a_degree_before_a_dead_point():
+    # a guide turns parallel to that of the frame: what slides on both lies half a kilometre away
+    drawn = graphkin.draw(random_scene(1016, ("PRP", "RPR", "RRR")), at=-186.3134797714, figures=["centres"])
+    assert ["centres"] == list(drawn.figures)
