@@ -280,7 +280,7 @@ def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
     """
     sheets = [execute(plan) for plan in plans]
     metres = sheets[0].scene.units.rates.metres
-    whole = reduce(Box.joined, (Box.around(sheet.points.values()) for sheet in sheets))
+    whole = reduce(Box.joined, (Box.around(sheet.points.values() or (0j,)) for sheet in sheets))
     size = sheets[0].scales.length / paper.length * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])
     length = _coarser(paper.length * 1e3, size) * 1e-3
 

@@ -281,8 +281,6 @@ def least_base(cam: LawCam) -> float | None:
         low, high = high, 1.25 * high
         if high > LARGEST * cam.base:
             return None
-    if low == high:
-        return high
     return last_true(lambda radii: np.array([good(float(r)) for r in radii]), high, low, 2, NEAREST * cam.base)
 
 

@@ -200,3 +200,11 @@ def test_the_bar_that_replaces_a_cam_hangs_on_its_crank() -> None:
 def test_a_wheel_that_rolls_is_replaced_by_no_block() -> None:
     figure = graphkin.draw("wheel-on-rail", figures=["structure"]).figures["structure"]
     assert 1 == sum(isinstance(x, Polygon) for x in walk(figure.children))  # that around its panel
+
+
+def test_a_block_without_points_is_taken_apart_and_handed_out() -> None:
+    scene = {"frame": {"guides": {"g": {"through": [0, 0], "angle": 0}}}, "links": {"1": {"on": "0.g"}},
+             "driver": {"slide": "1", "travel": 20, "velocity": 30}}  # fmt: skip
+    figure = graphkin.draw(scene, figures=("structure",)).figures["structure"]
+    assert "driver 1 with the frame: class I" in svg_bytes(figure).decode()
+    assert 1 == len(graphkin.handout(scene, formats=("html",)).lesson.stages)

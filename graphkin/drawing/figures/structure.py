@@ -60,7 +60,7 @@ def structure_figure(page: FigurePage, others: Sequence[Structure] = ()) -> Draw
 
 def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
     """The numbered diagram, as large as it fits, with a badge at each compound hinge and each high pair."""
-    box = Box.around(sheet.points.values())
+    box = Box.around(sheet.points.values() or (0j,))
     room = min((panel.width - 26.0) / max(box.width, 1.0), (panel.height - 26.0) / max(box.height, 1.0))
     small = sheet.larger(room)
     piece = bare_mechanism(small, letters)
