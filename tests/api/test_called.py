@@ -166,3 +166,45 @@ def test_a_link_that_is_turned_and_pushed_is_moved_by_the_driver_that_is_named()
     turned, pushed = (graphkin.solve(scene, at={key: -25}).data["positions"][0]["driver"] for key in ("2", "2/0"))
     assert {"2/0": 95, "2": math.radians(-25)} == pytest.approx(turned)
     assert {"2/0": -25, "2": math.radians(-80)} == pytest.approx(pushed)
+
+
+FOUR_BAR = "fourbar-150-500-300-400"
+BY_LAW = {
+    "frame": {"points": {"A": [0, 0]}}, "links": {"1": {"points": ["A", "B"], "length": 3}},
+    "driver": {"link": "1", "law": {"from": 0, "to": 90, "duration": 1, "by": "345"}, "time": 0.5},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("call", "given", "said"),
+    [
+        ("solve", {"scene": BY_LAW, "at": {"time": 2}}, "at time: found 2 s; the law goes from 0 to 1 s"),
+        ("solve", {"scene": BY_LAW, "at": {"time": "x"}}, "at time: 'x' is no time; give seconds"),
+        ("solve", {"scene": BY_LAW, "at": {"time": 0.2, "1": 3}},
+         "at time: stands beside driver values; give the time, or values"),
+        ("solve", {"scene": BY_LAW, "sweep": 5, "at": {"time": 0.2}},
+         "sweep: stands beside at; a sweep goes over the whole time of the law"),
+        ("sweep", {"scene": BY_LAW, "at": 3},
+         "at: does not go with a driver that moves by a law over the time; leave it out, or give omega"),
+        ("sweep", {"scene": FOUR_BAR, "executor": 3, "scheduler": "x"},
+         "executor: is given beside a scheduler; give one of them"),
+        ("sweep", {"scene": FOUR_BAR, "designs": {"links.1.length": [140, 150]}, "differentiate": ["theta_3"]},
+         "differentiate, integrate: do not go with designs; give one design"),
+        ("cam", {"scene": "cam-flat-face", "step": 0}, "step: found 0; degrees from 0.001 to 30"),
+        ("check", {"scene": FOUR_BAR, "instrument": "ruler"}, 'instrument: "ruler"; known here: cad, exact, pencil'),
+        ("centrodes", {"scene": FOUR_BAR, "link": "2", "point": "Q"},
+         "point Q: link 2 has no such point; known here: B, C, M"),
+        ("handout", {"scene": BY_LAW, "positions": 3},
+         "positions: found 3; a driver that moves by a law stands at its own moment"),
+        ("problem_set", {"scene": FOUR_BAR, "variants": 2, "spread": "x"}, "spread: found 'x'; give a Spread"),
+        ("course_design", {"scene": FOUR_BAR, "students": "a.csv", "at": 3},
+         "at: beside students; write each position into the table of the students"),
+        ("course_design", {"scene": FOUR_BAR, "rows": "a.csv", "variants": 3},
+         "variants: beside rows; give one of them"),
+        ("prepare", {"scene": FOUR_BAR, "find": ["omega_3"], "fast": 3}, "bounds, fast: found False, 3; give True or"),
+    ],
+)
+def test_a_call_that_cannot_be_meant_is_refused_in_a_sentence(call, given, said):
+    with pytest.raises(graphkin.CallError) as refused:
+        getattr(graphkin, call)(**given)
+    assert said == str(refused.value)[: len(said)]

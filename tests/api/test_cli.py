@@ -477,3 +477,33 @@ def test_a_program_reads_why_a_mechanism_that_is_explained_cannot_move(tmp_path)
     said = json.loads(run("explain", "s.toml", "--json", cwd=tmp_path).stdout)
     assert (False, "mobility") == (said["ok"], said["status"])
     assert said["problems"]
+
+
+@pytest.mark.parametrize(
+    ("args", "said"),
+    [
+        ("solve shaper-forces --position 3 --at 20", "--position: stands beside --at; write one of the two"),
+        ("solve {} --at 1=50 --at 1=60", "--at: 1=60 is given twice for one driver; write --at 1=50 --at 2=30"),
+        ("solve {} --at 50 --at 1=60", "--at: a bare value beside named ones; write --at 1=50 --at 2=30"),
+        ("centres {} --motion --centrode 2", "--motion: stands beside --centrode; write one of the two"),
+        ("sweep {} --set links.1.length", "--set links.1.length: says no key or no values; write --set"),
+        ("sweep {} --set links.1.length=1 --set links.1.length=3",
+         "--set links.1.length=3: the key is given twice; write KEY=40,50,60"),
+        ("audit {} --grading equations", 'grading: "equations"; write equations=20,drawing=30,values=50'),
+        ("handout {} --template course-design --export moodle",
+         "template course-design: with --export; leave one of them out"),
+        ("handout {} --students a.csv", "students: without a course design; add --template course-design"),
+        ("handout {} --variants 3 --at 20",
+         "variants: with --at or --positions; a set draws positions of its own, one each"),
+        ("scenes --copy", "--copy: no scene is named; write graphkin scenes NAME --copy"),
+        ("convert {} -o a.ggb", 'convert: ".ggb" is of no program that is written here; known: .toml, .linkage2'),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused_in_a_sentence(args: str, said: str):
+    answer = run(*args.format("fourbar-150-500-300-400").split())
+    assert (2, f"graphkin: {said}") == (answer.returncode, answer.stderr[: len(said) + 10])
+
+
+@pytest.mark.parametrize(("command", "key"), [("convert", "scene"), ("explain", "links")])
+def test_with_json_an_object_is_printed(command: str, key: str):
+    assert key in json.loads(run(command, "fourbar-150-500-300-400", "--json").stdout)

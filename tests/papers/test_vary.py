@@ -249,3 +249,19 @@ def test_a_variant_whose_driver_follows_from_the_speed_of_a_point_agrees_with_it
     (answer,) = examined(crank, None, "01").answers
     (exact,) = [row.exact for row in graphkin.check(crank).report.rows if str(row.symbol) == "v_B"]
     assert ("v_B", pytest.approx(1e3 * abs(exact))) == (answer.symbol, answer.value)
+
+
+def test_an_angle_of_a_driver_with_a_law_stays_within_the_law():
+    source, _ = written("fourbar-150-500-300-400")
+    law = {"from": 10, "to": 90, "duration": 1, "by": "345"}
+    source["driver"] = {"link": "1", "law": law, "angle": 50}
+    for number in range(20):
+        driver = candidate(source, Spread(), 0, number, 0)["driver"]
+        assert 10 < driver["angle"] < driver["law"]["to"]
+
+
+def test_a_range_narrower_than_a_step_is_drawn_in_finer_ones():
+    lengths = {candidate(_source(ranges={"links.1.length": [40, 40.5]}), Spread(), 0, number, 0)["links"]["1"]["length"]
+               for number in range(12)}  # fmt: skip
+    assert 3 < len(lengths)
+    assert 40 <= min(lengths) <= max(lengths) <= 40.5
