@@ -328,3 +328,11 @@ def test_a_face_on_a_profile_that_turns_back_is_told_the_base_circle_from_which_
 def test_a_cam_that_only_dwells_has_no_pressure_angle():
     (made,) = graphkin.cam(graphkin.read("cam-flat-face").replace("cams.1.law", [{"to": 360}])).made
     assert "pressure" not in "\n".join(made.sentences("en"))
+
+
+def test_an_undercut_across_a_seam_of_the_law_is_one_stretch():
+    scene = graphkin.read("cam-offset-roller").to_dict()
+    law = [{"to": 60, "rise": 40, "by": "harmonic"}, {"to": 120, "fall": 40, "by": "harmonic"}, {"to": 360}]
+    scene["cams"]["1"] |= {"roller": 60, "base": {"r": 62, "of": "pitch"}, "law": law}
+    ((begin, end),) = graphkin.cam(scene).data["cams"]["1"]["undercut"]
+    assert begin < 60 < end

@@ -130,3 +130,19 @@ def test_K_of_a_drawn_follower_is_that_of_rise_and_fall_without_dwells(omega: fl
     checked = graphkin.check(scene, find=["K_2/0", "theta_lag_2/0"])
     assert [3.0, 90.0] == pytest.approx([row.measured for row in (checked["K_2/0"], checked["theta_lag_2/0"])])
     assert checked.ok
+
+
+def test_a_centre_of_links_at_rest_lies_where_it_lies_in_any_motion() -> None:
+    scene = graphkin.read("sixbar-guide-40deg").to_dict()
+    moving, resting = (
+        graphkin.check({**scene, "driver": {"link": "1", "angle": 50, "omega": omega}}, find=["d_P13/C"])["d_P13/C"]
+        for omega in (-10, 0)
+    )
+    assert [moving.exact] * 2 == pytest.approx([resting.exact, resting.measured])
+
+
+def test_a_position_that_a_travel_names_is_that_of_the_travel() -> None:
+    scene = {**graphkin.read("hydraulic-cylinder").to_dict(), "positions": {"also": {"x": 540}}}
+    velocity = graphkin.solve(scene, at=540).data["positions"][0]["points"]["B@1"]["velocity"]
+    (row,) = (row for row in graphkin.check(scene, find=["v_B at x"]).data["readings"] if row["symbol"] == "v_B at x")
+    assert [abs(complex(*velocity))] * 2 == pytest.approx([row["exact"], row["measured"]])

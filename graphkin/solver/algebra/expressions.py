@@ -334,8 +334,6 @@ def fmax(x: Number, y: Number) -> Number:
     if not isinstance(x, Real):
         greater: Array = np.fmax(x, y)
         return greater
-    if x.at == y.at or (y.value == 0 and x.never_negative):
-        return x
     return x.graph.line("fmax", *sorted((x.at, y.at)))
 
 
