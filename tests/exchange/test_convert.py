@@ -538,3 +538,34 @@ def test_a_driven_cylinder_of_linkage_goes_out_and_in_once_a_cycle(tmp_path: Pat
 <Link id="1" name="Z" actuator="true" throw="30" cpm="10"><connector id="2"/><connector id="1"/></Link></linkage2>""")
     driver = {"slide": "Zr/Zc", "travel": 80, "velocity": pytest.approx(2 * 30 * 10 / 60)}
     assert driver == convert(tmp_path / "a.linkage2").scene.to_dict()["driver"] | driver
+
+
+PRISMATIC = {
+    "joints": [
+        {"id": "a", "type": "ground", "position": [0, 0]}, {"id": "b", "type": "revolute", "position": [1, 2]},
+        {"id": "c", "type": "prismatic", "position": [5, 0], "line_point": [0, 0], "axis": [1, 0]},
+    ],
+    "links": [{"id": "l1", "type": "arc_driver", "joints": ["a", "b"], "angular_velocity": 2}],
+}  # fmt: skip
+
+
+def test_a_prismatic_joint_of_pylinkage_runs_on_its_line_or_is_lost(tmp_path: Path) -> None:
+    (tmp_path / "a.json").write_text(json.dumps(PRISMATIC))
+    assert ["slide of joint c (no link has it)"] == [*map(str, read_bodies(str(tmp_path / "a.json")).lost)]
+    rod = {"id": "l2", "joints": ["b", "c"]}
+    (tmp_path / "a.json").write_text(json.dumps(PRISMATIC | {"links": [*PRISMATIC["links"], rod]}))
+    made = convert(tmp_path / "a.json")
+    assert ("ends of the arc of l1",) == (*map(str, made.left),)
+    assert {"C": {"of": "l2", "in": "0.s1"}} == made.scene.to_dict()["pins"]
+    assert ["A B", "B C"] == made.table["points"].tolist()
+
+
+def test_a_joint_of_pylinkage_fixed_to_two_of_the_frame_is_a_point_of_the_frame(tmp_path: Path) -> None:
+    joints = [
+        {"type": "Static", "name": "A", "x": 0, "y": 0}, {"type": "Static", "name": "D", "x": 6, "y": 0},
+        {"type": "Fixed", "name": "F", "joint0": "A", "joint1": "D", "distance": 3, "angle": math.pi / 2},
+        {"type": "Crank", "name": "B", "joint0": "A", "distance": 2, "angle": 0.3, "x": 1, "y": 2},
+        {"type": "Revolute", "name": "C", "joint0": "B", "joint1": "F", "distance0": 4, "distance1": 4},
+    ]
+    (tmp_path / "a.json").write_text(json.dumps({"joints": joints}))
+    assert [0.0, 3.0] == pytest.approx(convert(tmp_path / "a.json").scene.to_dict()["frame"]["points"]["F"])
