@@ -261,6 +261,7 @@ _BEARING = re.compile(
     re.IGNORECASE,
 )
 _POINTS = (
+    re.compile(rf"\b(?P<near>{_WORD})[\s-]*(?P<one>north|south)[\s-]*(?P<two>east|west){_ENDING}\b", re.IGNORECASE),
     re.compile(rf"\b(?:due\s*)?(?P<one>north|south)(?:[\s-]*(?P<two>east|west))?{_ENDING}\b", re.IGNORECASE),
     re.compile(rf"\b(?:due\s*)?(?P<one>east|west)(?P<two>)?{_ENDING}\b", re.IGNORECASE),
     re.compile(r"(?<![\w/.])(?P<near>[NSEW])(?P<one>[NS])(?P<two>[EW])(?![\w/])"),

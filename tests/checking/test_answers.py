@@ -143,7 +143,10 @@ def test_thousands_parted_by_spaces_are_one_number_with_its_decimals(text, value
 
 @pytest.mark.parametrize(
     ("text", "degrees"),
-    [("NNW", 112.5), ("12° clockwise from -x", 168.0), ("12° cw from y", 78.0), ("12° W of N", 102.0), ("30", 30.0)],
+    [
+        ("NNW", 112.5), ("west-southwest", -157.5), ("northwest", 135.0), ("12° clockwise from -x", 168.0),
+        ("12° cw from y", 78.0), ("12° W of N", 102.0), ("30", 30.0),
+    ],
 )
 def test_directions_are_read_from_words_and_axes(text, degrees):
     assert pytest.approx(degrees) == math.degrees(read_way(text, Symbol.parse("v_C")).angle)
