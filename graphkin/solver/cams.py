@@ -322,9 +322,8 @@ def _too_sharp(cam: LawCam, part: LiftPiece, degree: Array) -> Array:
     """Whether the profile turns back on itself: a flat face on a radius that is not positive, a roller larger than the
     radius of the convex pitch curve."""
     at = cam_with(cam, degree, part.at(degree, np))
-    if cam.flat:
-        return np.asarray(at.radius < 0.0)
-    return np.asarray((at.radius < 0.0) & (at.radius + cam.roller > 0.0))
+    turning = at.radius < -SAME * cam.base  # at its limit a cam has an edge, but does not turn back
+    return np.asarray(turning if cam.flat else turning & (at.radius + cam.roller > 0.0))
 
 
 def _impacts(law: FollowerLaw) -> tuple[tuple[AtDegree, ...], tuple[AtDegree, ...]]:

@@ -336,3 +336,12 @@ def test_an_undercut_across_a_seam_of_the_law_is_one_stretch():
     scene["cams"]["1"] |= {"roller": 60, "base": {"r": 62, "of": "pitch"}, "law": law}
     ((begin, end),) = graphkin.cam(scene).data["cams"]["1"]["undercut"]
     assert begin < 60 < end
+
+
+@pytest.mark.parametrize(("base", "stretches"), [(98.0, 0), (97.9, 1)])
+def test_a_flat_faced_cam_on_its_limit_circle_does_not_turn_back(base, stretches):
+    # harmonic rise of 28 in 60 degrees: the radius at its end is base + 28 - 14 * 9
+    law = [{"to": 60, "rise": 28, "by": "harmonic"}, {"to": 180}, {"to": 330, "fall": 28, "by": "345"}, {"to": 360}]
+    scene = graphkin.read("cam-flat-face").to_dict()
+    scene["cams"]["1"] |= {"base": {"r": base}, "law": law}
+    assert stretches == len(graphkin.cam(scene).data["cams"]["1"]["undercut"])
