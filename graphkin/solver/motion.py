@@ -267,7 +267,10 @@ class Motion:
 
         Raises CallError where the symbol names nothing here.
         """
-        return value_of_symbol(self.posed, symbol)
+        value = value_of_symbol(self.posed, symbol)
+        if symbol.kind == "d" and np.isnan(value).any() and self.growing is not self:
+            value = value_of_symbol(self.growing.posed, symbol)  # centres of links at rest are those of any motion
+        return value
 
 
 # -- centrodes ---------------------------------------------------------------------------------------------------------

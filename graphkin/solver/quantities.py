@@ -108,6 +108,7 @@ class Posed(Generic[V, R]):
 
 
 AnyPosed = Posed[Any, Any]
+PARALLEL = 1e-12  # a centre farther off than the mechanism's size by it lies at infinity, but for rounding
 """Poses as arrays or as formulas."""
 
 
@@ -222,7 +223,7 @@ def _place(posed: AnyPosed, symbol: Symbol, name: str) -> Any:
         return _place(posed, symbol, shared)
     q, omega = pole(posed.poses[pair[0]], posed.poses[pair[1]])
     with np.errstate(all="ignore"):
-        return np.where(omega == 0.0, np.nan, q / omega)
+        return np.where(scene.size * np.abs(omega) <= PARALLEL * np.abs(q), np.nan, q / omega)
 
 
 def pole(one: Pose, two: Pose) -> tuple[Array, Array]:

@@ -139,6 +139,16 @@ def test_a_centre_of_links_at_rest_lies_where_it_lies_in_any_motion() -> None:
         for omega in (-10, 0)
     )
     assert [moving.exact] * 2 == pytest.approx([resting.exact, resting.measured])
+    table = graphkin.sweep({**scene, "driver": {"link": "1", "angle": 50, "omega": 0}}, find=["d_P13/C"], positions=4)
+    assert moving.exact == pytest.approx(table.to_pandas()["d_P13/C (mm)"][0])
+
+
+def test_tables_have_no_distance_of_a_centre_at_infinity() -> None:
+    lengths = {name: {**link, "length": 400 if name == "2" else 150} for name, link in FOUR_BAR["links"].items()}
+    parallelogram = {**FOUR_BAR, "links": lengths, "sketch": {"C": [475, 130]}}
+    (position,) = graphkin.solve(parallelogram, find=["d_P24/A", "d_P13/A"]).data["positions"]
+    assert {"d_P24/A": None, "d_P13/A": None} == position["values"]  # rounding had put P24 at 1e17 mm
+
 
 
 def test_a_position_that_a_travel_names_is_that_of_the_travel() -> None:
