@@ -379,7 +379,10 @@ def load_edges(reach: DriverRange) -> Array:
         if load.against:
             found += _crossings(reach, _speed(reach, load.against))
         if load.phase is not None:
-            found += _begins_and_ends(reach, load.phase)
+            try:
+                found += _begins_and_ends(reach, load.phase)
+            except Unsolvable as stop:
+                raise load.without_stroke(stop) from None
     kept = sorted(offset for offset in found if low - 1e-9 <= offset <= high + 1e-9)
     least = 1e-9 * (high - low)
     return np.array([x for i, x in enumerate(kept) if i == 0 or x - kept[i - 1] > least])

@@ -99,7 +99,8 @@ def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Draw
     pages: dict[str, ChartPage | Drawing] = {}
     for force in forces_named(turn.scene):
         if force.kind in ("F", "M") and not force.other:
-            pages[f"diagram-{force}"] = force_page(turn.reach, force, language)
+            with suppress(Unsolvable):  # the text says why there are no forces
+                pages[f"diagram-{force}"] = force_page(turn.reach, force, language)
     if isinstance(turn.flywheel, FlywheelStudy):
         pages["flywheel"] = flywheel_page(turn.reach, turn.flywheel, language)
     return pages

@@ -79,8 +79,17 @@ class FollowedDesign:
 
     @cached_property
     def watched(self) -> tuple[Symbol, ...]:
-        """The quantities of the table."""
-        return self.asked or all_that_moves(self.structure)
+        """The quantities of the table: the asked ones, or all that are known."""
+        if self.asked:
+            return self.asked
+        every = all_that_moves(self.structure)
+        try:
+            for load in self.scene.loading.loads:
+                if load.phase and load.phase.stroke:
+                    self.reach.stroke(load.phase.stroke)
+        except Unsolvable:
+            return tuple(symbol for symbol in every if not symbol.is_load)
+        return every
 
     @cached_property
     def start(self) -> dict[str, float]:

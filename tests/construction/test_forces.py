@@ -760,6 +760,14 @@ def test_a_load_on_a_part_of_a_stroke_that_no_whole_turn_has_is_refused_by_its_n
     assert graphkin.centres(scene).ok
 
 
+def test_a_sweep_has_the_motion_where_a_load_has_no_stroke_and_says_why_it_has_no_forces(tmp_path):
+    swept = graphkin.sweep(rocking_press(find=[]), positions=4)
+    assert [] == [head for head in swept.to_pandas().columns if head.startswith(("F_", "M_"))]
+    assert [] == [path.name for path in swept.write(tmp_path) if path.name.startswith("diagram")]
+    assert "Forces: loads.W.when.stroke: belongs to a whole turn, " in swept.text
+    assert swept.data["why_no_forces"].startswith("loads.W.when.stroke: belongs to a whole turn, ")
+
+
 @pytest.mark.parametrize("find", [[], ["v_C"]])
 def test_the_motion_is_told_where_a_load_has_no_stroke_and_the_forces_are_refused_in_a_sentence(find):
     scene = rocking_press(find=find)
