@@ -251,7 +251,7 @@ class Forces:
         made = {one.symbol: one.beside for one in jumping if one.symbol and one.beside is not None}
         if changed.any():
             made |= self._by_symbol(np.where(changed, self._found[1][0], np.nan))
-        least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num(list(here.values()))), axis=0)
+        least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num([*here.values(), *made.values()])), axis=0)
         made = {s: known_where(ok & (np.abs(value - here[s]) > least), value) for s, value in made.items()}
         return {symbol: value for symbol, value in made.items() if not np.isnan(value).all()}
 

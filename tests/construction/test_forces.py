@@ -760,6 +760,14 @@ def test_a_load_on_a_part_of_a_stroke_that_no_whole_turn_has_is_refused_by_its_n
     assert graphkin.centres(scene).ok
 
 
+def test_a_force_that_an_ending_load_does_not_change_has_one_value():
+    load = {"on": "1", "at": "B", "force": 100, "angle": -90, "when": {"driver": [490, 550]}}
+    scene = {**graphkin.read("hydraulic-cylinder").to_dict(), "loads": {"P": load}}
+    (position,) = graphkin.solve(scene, at=550).data["positions"]
+    assert ["M_3/2"] == [*position["moments"]]  # without the load nothing is left to tell rounding from
+    assert {"P_P+", "F_2+", "F_1/2+", "F_4/1+", "F_4/3+"} == {name for name in position["forces"] if "+" in name}
+
+
 def test_a_sweep_has_the_motion_where_a_load_has_no_stroke_and_says_why_it_has_no_forces(tmp_path):
     swept = graphkin.sweep(rocking_press(find=[]), positions=4)
     assert [] == [head for head in swept.to_pandas().columns if head.startswith(("F_", "M_"))]
