@@ -32,7 +32,7 @@ def test_a_sketch_that_cannot_tell_leaves_it_to_the_rule() -> None:
 
 
 def test_a_sketched_point_that_lies_in_one_place_but_for_rounding_leaves_it_to_the_rule() -> None:
-    first, second = {"C": 0.2 + 0.1j, "M": -0.2 + 0j}, {"C": 0.2 + (0.1 - 3e-17) * 1j, "M": 0.4 + 0j}
+    first, second = {"C": 0.2 + 0.1j, "M": -0.2 + 0j}, {"C": 0.2 + (0.1 - 1e-16) * 1j, "M": 0.4 + 0j}
     assert 0 == pick(replace(SCENE, sketch={"C": 0.3 - 0.2j}), ["2"], [first, second], 0)
 
 
