@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import sys
 import xml.etree.ElementTree as ET
 
 import pytest
 
-from graphkin import draw
+from graphkin import draw, read
 from graphkin.drawing import Drawing, Text
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Stroke
 from graphkin.drawing.text import rich, width
@@ -119,3 +120,17 @@ def test_letters_as_outlines_need_no_font():
 def test_the_profile_of_a_cam_has_no_more_arcs_than_its_bends_need(name: str, most: int) -> None:
     (cam,) = mechanism_of(name).cams
     assert most > len(arcs_of_profile(cam))
+
+
+@pytest.mark.parametrize(("name", "roller"), [("cam-flat-face", 0.0), ("cam-offset-roller", 9.0)])
+def test_where_the_speed_jumps_a_profile_runs_along_the_face_or_around_the_roller(name: str, roller: float) -> None:
+    steady = [{"to": 120, "rise": 20, "by": "uniform"}, {"to": 180}, {"to": 300, "fall": 20, "by": "uniform"}]
+    scene = read(name).to_dict()
+    scene["cams"]["1"]["law"] = [*steady, {"to": 360}]
+    (cam,) = mechanism_of(scene).cams
+    found = arcs_of_profile(cam)
+    (corner, bulge), begin = found[-1], found[0][0]
+    if roller:  # of an arc with this bulge
+        assert roller == pytest.approx(abs(begin - corner) * (1 + bulge**2) / (4 * abs(bulge)))
+    else:  # by the jump of the reduced velocity
+        assert (20 / math.radians(120), 0) == pytest.approx((abs(begin - corner), bulge))

@@ -219,11 +219,15 @@ def outline_dxf(centre: complex, radius: float) -> bytes:
 def arcs_of_profile(cam: LawCam) -> list[Vertex]:
     """The profile as tangent arcs, two between each two of its points (biarcs), finer where it bends."""
     found: list[Vertex] = []
-    for part in cam.law.parts:
+    parts = cam.law.parts
+    for part, following in zip(parts, (*parts[1:], parts[0]), strict=True):
         count = max(2, math.ceil(COUNT * (part.end - part.start) / math.tau))
         nodes = [part.start + (part.end - part.start) * k / count for k in range(count + 1)]
         for start, end in pairwise(nodes):
             found += _between(cam, part, start, end, ROUNDS)
+        (corner, t), (begin, _) = _point(cam, part, part.end), _point(cam, following, following.start)
+        if abs(begin - corner) > KEEPS:  # the speed jumps: along the face, or around the roller
+            found.append((corner, _bulge(corner, t if dot(t, begin - corner) >= 0.0 else -t, begin)))
     return found
 
 
