@@ -108,8 +108,9 @@ class Posed(Generic[V, R]):
 
 
 AnyPosed = Posed[Any, Any]
-PARALLEL = 1e-12  # a centre farther off than the mechanism's size by it lies at infinity, but for rounding
 """Poses as arrays or as formulas."""
+PARALLEL = 1e-12
+"""A centre at which the mechanism's size over its distance is no more than this lies at infinity, but for rounding."""
 
 
 def all_slides(structure: Structure) -> tuple[Pair, ...]:
