@@ -48,8 +48,7 @@ def pick(
         rest = min((s, i) for i, s in enumerate(squares) if i != best)
         # beside a dead point two assemblies lie close to each other, and a sketch still tells them apart
         gap = max((abs(z - candidates[best][p]) for p, z in candidates[rest[1]].items() if p in given), default=0.0)
-        # what lies in one place in both, but for rounding, tells nothing
-        if gap > TOLD * scene.size and rest[0] - squares[best] > TOLD * scene.size * gap:
+        if gap > ROUNDED * scene.size and rest[0] - squares[best] > TOLD * scene.size * gap:
             return best
     if default is None:
         places = (", ".join(f"{p} = {shown(z)}" for p, z in candidate.items()) for candidate in candidates)
@@ -114,5 +113,8 @@ class ChangePoint:
     links: tuple[str, ...]
     values: tuple[float, ...]
 
+
+ROUNDED = 1e-13
+"""Of the size: a point that is no farther apart in two assemblies lies in one place in both, but for rounding."""
 TOLD = 1e-9
 """Of the size, by how far two assemblies are apart: by so much their distances from the sketch differ."""
