@@ -312,12 +312,12 @@ def centres(
     """
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given, values = placed(as_scene(scene), at)
-    from graphkin.solver.values import as_drawn, growing
+    from graphkin.solver.values import as_drawn
 
     motion = solved_here(given, values)
     found = found_centres(motion.structure, values)
     rests = not any(pose.omega[0] or pose.v[0] for pose in motion.poses.values())
-    moving = as_drawn(growing(motion), found.sheet.structure) if rests else None
+    moving = as_drawn(motion.growing, found.sheet.structure) if rests else None
     drawn = as_drawn(motion, found.sheet.structure)
     return Centred(found, drawn, language, convention, moving).saved(out, formats)
 

@@ -99,7 +99,7 @@ def centre_errors(centres: Centres, motion: Motion) -> dict[LinkPair, tuple[floa
 
 def must_agree(centres: Centres, motion: Motion) -> None:
     """Raises Disagreement, naming every centre that is out of its allowed distance and would be seen to be."""
-    errors = centre_errors(centres, as_drawn(motion, centres.sheet.structure))
+    errors = centre_errors(centres, as_drawn(motion.growing, centres.sheet.structure))
     off = {pair: error for pair, error in errors.items() if error and error[0] > max(error[1], ON_PAPER)}
     said = "no paper is written please report this scene"
     problems = [Problem(f"P{''.join(pair)}", "lies off its computed place", said, angle=f"{math.degrees(sine):.3g}")

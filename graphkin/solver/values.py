@@ -92,11 +92,6 @@ def _range_here(motion: Motion) -> DriverRange:
     return range_of(structure_of(motion.structure), values)
 
 
-def growing(motion: Motion) -> Motion:
-    """The position with the first driver's value growing at a unit rate, the others held."""
-    return _range_here(motion).motion(np.zeros(1), unit=True)
-
-
 def forces_here(motion: Motion) -> Forces:
     """The forces at the single position of a motion.
 
@@ -176,8 +171,7 @@ def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:
         force, moment = (forces.values[Symbol(kind, link=symbol.link)][0] for kind in ("Fi", "Mi"))
         return float(moment / abs(force)) if force else 0.0
     if symbol.kind == "arm":
-        moves = any(driver.values[1] for driver in motion.scene.drivers)
-        return _arm(forces.motion if moves else growing(forces.motion), forces, Symbol.parse(symbol.name))
+        return _arm(forces.motion.growing, forces, Symbol.parse(symbol.name))
     known = forces.value(symbol)
     return math.nan if known is None else complex(known[0]) if symbol.is_vector else float(known[0])
 

@@ -267,10 +267,16 @@ def test_long_names_of_links_and_points_stand_clear_of_each_other(violations: Ca
     assert any("AnchorP" in text.string for text in labels(drawing))
 
 
+def at_rest(name: str) -> graphkin.Scene:
+    scene = graphkin.read(name).to_dict()
+    return graphkin.read(scene | {"driver": {"link": "1", "angle": scene["driver"]["angle"], "omega": 0}})
+
+
 @pytest.mark.parametrize("made", [
     lambda: graphkin.draw("sixbar-420rpm", figures=["centres"]).figures,
+    lambda: graphkin.draw(at_rest("sixbar-420rpm"), figures=["centres"]).figures,
     lambda: graphkin.handout("sixbar-420rpm", formats=("html",), positions=1).files,
-], ids=["draw", "handout"])  # fmt: skip
+], ids=["draw", "draw at rest", "handout"])  # fmt: skip
 def test_centres_whose_lines_are_a_tenth_of_a_degree_off_are_not_written(made, monkeypatch):
     def turned(a, b):
         (x, y, w), sine = wedge(a, b)
