@@ -160,12 +160,15 @@ def test_speeds_of_a_rack_stand_in_the_table_of_the_plan_in_the_units_of_the_sce
 
 
 @pytest.mark.parametrize("start", [{"3": 40}, {"2": 20}])
-def test_a_driver_may_turn_one_wheel_of_a_train_seen_from_another(start):
+@pytest.mark.parametrize(("wheel", "seen_from", "sense"), [("2", "3", 1), ("3", "2", -1)])
+def test_a_driver_may_turn_one_wheel_of_a_train_seen_from_another(wheel, seen_from, sense, start):
     scene = {
         "frame": {"points": {"B": [0, 0], "C": [60, 0]}},
         "links": {"2": {"points": ["C", "D"], "length": 31}, "3": {"points": ["B", "E"], "length": 13}},
         "gears": {"g": {"between": ["2", "3"], "teeth": [20, 35], "carrier": "0"}},
-        "driver": {"link": "2", "angle": -20, "omega": -12, "alpha": 14, "relative_to": "3"},
+        "driver": {
+            "link": wheel, "angle": -20 * sense, "omega": -12 * sense, "alpha": 14 * sense, "relative_to": seen_from,
+        },
     }
     for link, angle in start.items():
         scene["links"][link]["start"] = angle
