@@ -292,3 +292,35 @@ def test_centres_that_rounding_alone_moves_are_drawn_a_hundredth_of_a_degree_bef
     # a guide turns parallel to that of the frame: what slides on both lies half a kilometre away
     drawn = graphkin.draw(random_scene(1016, ("PRP", "RPR", "RRR")), at=-186.3134797714, figures=["centres"])
     assert ["centres"] == list(drawn.figures)
+
+
+def test_long_names_of_links_do_not_run_off_the_page(violations: Callable[[bytes], list[str]]) -> None:
+    scene = {
+        "frame": {"name": "Foundation", "points": {"A": [0, 0], "D": [100, 0]}},
+        "links": {
+            "crankshaft": {"points": ["A", "B"], "length": 30},
+            "connectingrod": {"points": ["B", "C"], "length": 90},
+            "rockerarm": {"points": ["D", "C"], "length": 60},
+        },
+        "driver": {"link": "crankshaft", "angle": 60, "omega": 10},
+    }
+    figure = graphkin.draw(scene, figures=["centres"], convention="us").figures["centres"]
+    assert [] == violations(svg_bytes(figure))
+
+
+def test_the_names_of_many_permanent_centres_at_one_pin_stand_on_no_others(
+    violations: Callable[[bytes], list[str]]
+) -> None:
+    pin, rods = cmath.rect(30, math.radians(40)), range(6)
+    ends = [cmath.rect(110, math.radians(20 + 60 * k)) for k in rods]
+    feet = [z + cmath.rect(50, math.radians(120 + 60 * k)) for k, z in zip(rods, ends, strict=True)]
+    scene = {
+        "frame": {"points": {"A": [0, 0]} | {f"D{k}": [z.real, z.imag] for k, z in enumerate(feet)}},
+        "links": {"1": {"points": ["A", "B"], "length": 30}}
+        | {f"{2 * k + 2}": {"points": ["B", f"C{k}"], "length": abs(ends[k] - pin)} for k in rods}
+        | {f"{2 * k + 3}": {"points": [f"D{k}", f"C{k}"], "length": 50} for k in rods},
+        "driver": {"link": "1", "angle": 40, "omega": 10},
+        "sketch": {f"C{k}": [z.real, z.imag] for k, z in enumerate(ends)},
+    }
+    figures = graphkin.draw(scene, figures=["centres"]).figures
+    assert {} == {name: found for name, page in figures.items() if (found := violations(svg_bytes(page)))}

@@ -13,6 +13,8 @@ import pytest
 from graphkin import draw, read
 from graphkin.drawing import Drawing, Text
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Stroke
+from graphkin.drawing.ink.strokes import texture
+from graphkin.drawing.ink.symbols import circular_slot
 from graphkin.drawing.text import rich, width
 from graphkin.drawing.write.dxf import arcs_of_profile
 from graphkin.errors import CallError
@@ -71,6 +73,12 @@ def test_every_primitive_is_an_entity_of_its_kind():
     )
     space = opened(Drawing(10.0, 10.0, (Group(things, layer="mechanism"),)).content("dxf")).modelspace()
     assert ["LINE", "CIRCLE", "ARC", "SOLID", "HATCH", "LWPOLYLINE"] == [e.dxftype() for e in space]
+
+
+def test_white_strokes_which_hide_lines_on_paper_are_no_lines_in_cad():
+    things = (*circular_slot(9 + 9j, 5.0, 0.0, 1.0), Line(1 + 1j, 4 + 5j, texture(2)))
+    space = opened(Drawing(20.0, 20.0, things).content("dxf")).modelspace()
+    assert ["ARC"] * 4 == [e.dxftype() for e in space]  # the edges and the round ends of the slot
 
 
 def test_an_arc_lies_where_it_lies_on_paper():

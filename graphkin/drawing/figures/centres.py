@@ -64,7 +64,7 @@ from graphkin.drawing.place.names import with_crowd, without
 from graphkin.drawing.place.obstacles import clearest
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, obstacles_of, renamed
 from graphkin.drawing.plate import centred
-from graphkin.drawing.text import SMALLEST, plain, rich, runs_width, stacked, text_box
+from graphkin.drawing.text import SMALLEST, plain, rich, runs_width, stacked, text_box, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
@@ -81,6 +81,7 @@ def id_of(pair: LinkPair) -> str:
 
 HALF = 1.9  # mm of a line left out to either side of its number
 CLEAR, WIDE = 1.55, 3.0  # mm from a number's middle to anything else, at least and at best
+KNOT, OUTSIDE = 3.5, 2.2  # letters of the names of links, and their distance from the circle
 ROUNDING = 1e-6  # mm
 SHARES = 0.1 + 0.01 * np.arange(81)  # of a side, where its number may stand
 PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
@@ -118,9 +119,9 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
     outline = (Arc(middle, radius, k * math.pi, (k + 1) * math.pi, thin) for k in (0, 1))
     knots: list[Primitive] = []
     for name, spoke in ways.items():
-        colour, runs = colour_of_link(centres.scene, name), plain(name, 3.5, bold=True)
+        colour, runs = colour_of_link(centres.scene, name), plain(name, KNOT, bold=True)
         box = text_box(Text(0j, runs, "middle", colour))
-        there = middle + (radius + 2.2 + max(box.width * abs(spoke.real), box.height) / 2) * spoke
+        there = middle + (radius + OUTSIDE + max(box.width * abs(spoke.real), box.height) / 2) * spoke
         foot = there - 1j * (box.top + box.bottom) / 2
         knots += [Circle(middle + radius * spoke, 1.1, colour),
                   Text(foot, runs, "middle", colour, f"label-circle-{name}", ("label",))]  # fmt: skip
@@ -357,7 +358,7 @@ def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
     side = _side(centres, letters, spoken)
     wide = max(content.width, SMALLEST_FIGURE[0]) + 2 * ROOM - BESIDE
     high = max(content.height + 2 * ROOM, SMALLEST_FIGURE[1] + 2 * ROOM, side.height)
-    page = page.wide_enough(wide + BESIDE + SIDE)
+    page = page.wide_enough(wide + BESIDE + side.width)
     figure = centred(
         content, wide, high, lambda around: joined((back, centre_marks(centres, letters, around, back.drawn))),
         lambda whole, around: named_centres(whole, around, centres),
@@ -387,16 +388,19 @@ def _side(centres: Centres, letters: Notation, language: str) -> Block:
     """The column beside the mechanism: circle diagram, legend, and the centres in the order of construction, with their
     constructions."""
     radius = RADIUS.get(len(centres.names), 23.0)
-    circle = panel(SIDE, 2 * radius + 18.0, lambda room: Piece(
+    found = [(c.number, letters.centre(c.pair), _how_found(c, letters, language)) for c in centres.found if c.number]
+    wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for _, name, _ in found)])
+    # long names of links need more room, in the circle diagram and in the list: of each line, and the × at its end
+    longest = max(runs_width(plain(name, KNOT, bold=True)) for name in centres.names)
+    lines = [runs_width(runs) + 3.0 for *_, how in found for runs in wrapped(how, SIZE, 0.0)]
+    width = max(SIDE, 2 * (radius + OUTSIDE + longest), 7.0 + wide + max(lines, default=0.0))
+    circle = panel(width, 2 * radius + 18.0, lambda room: Piece(
         {"centres": (circle_diagram(centres, room.centre, radius),)}))
-    title = prose((term("circle diagram", language),), SIDE, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
-    numbered = [centre for centre in centres.found if centre.number]
-    names = [letters.centre(centre.pair) for centre in numbered]
-    wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for name in names)])
+    title = prose((term("circle diagram", language),), width, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
     order = (
-        row(numeral(centre.number, 7.0, classes=LEGEND), prose((name,), wide, classes=LEGEND),
-            prose((_how_found(centre, letters, language),), SIDE - 7.0 - wide, classes=LEGEND))
-        for centre, name in zip(numbered, names, strict=True)
+        row(numeral(number, 7.0, classes=LEGEND), prose((name,), wide, classes=LEGEND),
+            prose((how,), width - 7.0 - wide, classes=LEGEND))
+        for number, name, how in found
     )  # fmt: skip
     return column(title, circle, column(*_legend(centres, language), gap=0.8), column(*order), gap=1.5)
 
@@ -488,7 +492,9 @@ def named_centres(piece: Piece, panel: Box, centres: Centres) -> Piece:
     for _ in range(ROUNDS):
         named, crowded = with_crowd(piece, panel)
         ids = _overlapping(named) if crowded else set()
-        marks = {label.mark for label in crowded if label.text.id in ids and _found(label, centres)}
+        overlapping = ([label for label in some if label.text.id in ids and _found(label, centres)]
+                       for some in (crowded, piece.labels))  # fmt: skip
+        marks = {label.mark for label in next(filter(None, overlapping), ())}
         if not marks:
             break
         piece = replace(piece, labels=tuple(label for label in piece.labels if label.mark not in marks))

@@ -1,7 +1,7 @@
 """Drawings as DXF for CAD: one unit is one millimetre on paper, layers as in the SVG, the same bytes every time.
 
-ezdxf (extra ``cad``) stays behind this module.  A named group of the SVG is a group of that name.  White fills, which
-hide lines on paper, are left out: a DXF holds geometry.
+ezdxf (extra ``cad``) stays behind this module.  A named group of the SVG is a group of that name.  White fills and
+strokes, which hide lines on paper, are left out: a DXF holds geometry.
 
 The profile of a cam is true to size for a milling machine, as a closed curve of arcs within a millionth of a millimetre
 of the computed one.
@@ -46,6 +46,7 @@ if TYPE_CHECKING:
 WIDTHS = (0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158, 200, 211)
 """Widths of lines that the format knows, in hundredths of a millimetre."""
 STYLES = {"serif": "times.ttf", "serif-italic": "timesi.ttf", "serif-bold": "timesbd.ttf", "chinese": "simsun.ttc"}
+WHITE = ("#fff", "#ffffff")
 PAPER = "paper"  # the layer of what stands in none
 _ALONE = Lock()
 
@@ -131,9 +132,9 @@ class _Board:
     def _shape(self, thing: Line | Polyline | Polygon | Circle | Arc, layer: str) -> list[DXFGraphic]:
         made = []
         fill = thing.fill if isinstance(thing, Polygon | Circle) else ""
-        if fill and fill.lower() not in ("#fff", "#ffffff"):
+        if fill and fill.lower() not in WHITE:
             made.append(self._filled(thing, fill, layer))
-        if thing.stroke is None:
+        if thing.stroke is None or thing.stroke.colour.lower() in WHITE:
             return made
         look = self._look(thing.stroke, layer)
         if isinstance(thing, Line):
