@@ -22,6 +22,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import LawCam
 from graphkin.scene.scene import SceneLike
+from graphkin.scene.tables import tidy
 from graphkin.words import Neutral, Phrase, say
 from graphkin.words.written import true_minus
 
@@ -122,7 +123,7 @@ class CamMade:
             if said not in made:
                 made.append(said)
         if study.radius is not None:
-            size = Neutral(f"{self._length(study.radius.value)} {unit}")
+            size = Neutral(f"{true_minus(self._length(study.radius.value))} {unit}")
             made.append(Phrase("cam radius", size=size, place=_place(study.radius)))
         made += [self._undercut(start, end) for start, end in study.undercut]
         if self.wanted_base is not None:
@@ -135,7 +136,11 @@ class CamMade:
     def _undercut(self, start: float, end: float) -> Phrase:
         unit = self.mechanism.units.length
         between = {"begin": _degrees(start), "end": _degrees(end)}
+        if start == end:
+            return Phrase("cam undercut corner", angle=_degrees(start))
         least = self.study.radius.value if self.study.radius is not None else 0.0
+        if least >= 0.0:
+            return Phrase("cam undercut crossing", **between)
         if self.cam.flat:
             radius = self._length(self.cam.base - least, ROUND_UP)
             return Phrase("cam undercut flat", **between, radius=radius, unit=unit)
@@ -168,8 +173,11 @@ class CamMade:
         metres, study = self.mechanism.units.metres, self.study
         lift = 1.0 if self._swings else metres
 
+        def told(angle: float) -> float:
+            return tidy(math.degrees(angle))
+
         def at(extreme: AtDegree | None, per: float = 1.0) -> dict[str, float] | None:
-            return None if extreme is None else {"value": extreme.value / per, "degree": math.degrees(extreme.degree)}
+            return None if extreme is None else {"value": extreme.value / per, "degree": told(extreme.degree)}
 
         return {
             "follower": self.cam.follower,
@@ -181,12 +189,12 @@ class CamMade:
             "velocity": at(study.velocity, lift),
             "acceleration": at(study.acceleration, lift),
             "radius": at(study.radius, metres),
-            "undercut": [[math.degrees(start), math.degrees(end)] for start, end in study.undercut],
-            "jumps": [{"order": order, "degree": math.degrees(jump.degree), "by": jump.value / lift}
+            "undercut": [[told(start), told(end)] for start, end in study.undercut],
+            "jumps": [{"order": order, "degree": told(jump.degree), "by": jump.value / lift}
                       for order, jumps in enumerate((study.impacts, study.soft_impacts), 1) for jump in jumps],
             "least_base": None if self.wanted_base is None else self.wanted_base / metres,
             "divisions": [
-                {"number": k, "degree": math.degrees(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
+                {"number": k, "degree": told(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
                 for k, d in enumerate(divisions(self.sheet))
             ],
             "drawn": {"pitch": self.drawn.pitch / metres, "profile": self.drawn.profile / metres,

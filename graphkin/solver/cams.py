@@ -185,6 +185,8 @@ def follower_inputs(cam: LawCam, turn: Array) -> Mapping[str, Array]:
 
 NODES = 97
 SAME = 1e-9
+REACHES = 1e-6
+"""Of the base radius: so far a roller reaches over the profile beside it by rounding, or at its limit."""
 CORNER = 1e-9
 """A jump of a derivative smaller than this, of the greatest, is none."""
 
@@ -205,7 +207,7 @@ class CamStudy:
     velocity, acceleration : the greatest in size, with sign
     radius : the least radius of curvature of the convex profile; None if it is nowhere convex
     undercut : the stretches in which the profile cannot be cut: the roller is larger than the radius of the pitch
-        curve, or the flat face does not touch the whole of it
+        curve, or the flat face does not touch the whole of it; without width where the velocity drops at once
     impacts, soft_impacts : the jumps of velocity and of acceleration at seams, by their size
     """
 
@@ -306,16 +308,37 @@ def _extremes(cam: LawCam, part: LiftPiece, of: str, rate: str) -> Iterator[AtDe
 
 
 def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
-    """Stretches in which the profile is not round enough, joined across seams."""
+    """Stretches in which the profile is not round enough, joined across seams; without width at a corner that a roller
+    or a face cannot make.  If there are none, those that the roller cuts away from other angles of the cam."""
     stretches: list[list[float]] = []
+    corners = tuple(_sharp_corners(cam))
     for part in cam.law.parts:
         nodes = np.linspace(part.start, part.end, 4 * NODES)
-        for start, end in intervals(partial(_too_sharp, cam, part), nodes):
+        sharp = (ends for ends in intervals(partial(_too_sharp, cam, part), nodes) if ends[1] > ends[0])
+        for start, end in ((part.start,) * 2, *sharp) if part.start in corners else sharp:
             if stretches and abs(stretches[-1][1] - start) < SAME:
                 stretches[-1][1] = end
             else:
                 stretches.append([start, end])
-    yield from ((start, end) for start, end in stretches if end > start)
+    if cam.roller and not stretches:
+        nodes = np.concatenate([np.linspace(part.start, part.end, NODES) for part in cam.law.parts])
+        yield from intervals(partial(_cut_away, cam, cam_at(cam, nodes).pitch), nodes)
+    yield from ((start, end) for start, end in stretches)
+
+
+def _sharp_corners(cam: LawCam) -> Iterator[float]:
+    """The seams (rad) at which the pitch curve of a roller, or the profile under a flat face, turns by a convex corner:
+    the velocity drops."""
+    for jump in _impacts(cam.law)[0] if cam.flat or cam.roller else ():
+        (leaning,) = cam_at(cam, np.array([jump.degree])).leaning
+        if jump.value * math.cos(leaning) < 0.0:
+            yield jump.degree
+
+
+def _cut_away(cam: LawCam, centres: Array, degree: Array) -> Array:
+    """Whether the roller about any of these centres, in the cam's own axes, reaches over the point of contact."""
+    gap = np.abs(cam_at(cam, degree).profile[:, None] - centres[None, :]).min(axis=1)
+    return np.asarray(gap < cam.roller - REACHES * cam.base)
 
 
 def _too_sharp(cam: LawCam, part: LiftPiece, degree: Array) -> Array:

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import shapely
 
 import graphkin
 from graphkin.checking.closed_form import compare_cam
@@ -18,7 +19,7 @@ from graphkin.construction import cam_sheet as cam_module
 from graphkin.construction.cam_sheet import cam_sheet
 from graphkin.errors import CallError, Disagreement
 from graphkin.scene import mechanism_of
-from graphkin.solver.cams import cam_at, study_cam
+from graphkin.solver.cams import cam_at, cam_with, study_cam
 from tests.command import run
 from tests.solver.test_cams import LIBRARY, random_cam
 
@@ -345,3 +346,51 @@ def test_a_flat_faced_cam_on_its_limit_circle_does_not_turn_back(base, stretches
     scene = graphkin.read("cam-flat-face").to_dict()
     scene["cams"]["1"] |= {"base": {"r": base}, "law": law}
     assert stretches == len(graphkin.cam(scene).data["cams"]["1"]["undercut"])
+
+
+def crosses_itself(cam) -> bool:
+    """Whether the profile of a cam crosses itself: a polygon of its points."""
+    parts = ((part, np.linspace(part.start, part.end, 400)) for part in cam.law.parts)
+    places = np.concatenate([cam_with(cam, degree, part.at(degree, np)).profile for part, degree in parts])
+    apart = np.abs(np.diff(places, prepend=places[-1])) > 1e-10
+    return not shapely.LinearRing(np.column_stack([places.real, places.imag])[apart]).is_simple
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+@pytest.mark.parametrize(
+    ("name", "tip", "undercut"),
+    [("cam-flat-face", {"flat": True}, True), ("cam-offset-roller", {"roller": 4}, True),
+     ("cam-swinging-roller", {"roller": 4}, True), ("cam-offset-roller", {}, False)],
+    ids=["face", "roller", "swinging roller", "edge"],
+)  # fmt: skip
+def test_a_profile_is_undercut_where_the_velocity_drops_under_a_face_or_a_roller(name, tip, undercut, sense):
+    scene = graphkin.read(name).to_dict()
+    law = [{"to": 30}, {"to": 120, "rise": 20, "by": "uniform"}, {"to": 180}, {"to": 350, "fall": 20, "by": "345"}]
+    plain = {key: value for key, value in scene["cams"]["1"].items() if key not in ("roller", "flat", "allow")}
+    scene["cams"]["1"] = plain | tip | {"base": {"r": 60}, "sense": sense, "law": [*law, {"to": 360}]}
+    (made,) = graphkin.cam(scene).made
+    assert undercut == crosses_itself(made.cam)
+    assert ([[120, 120]] if undercut else []) == made.data["undercut"]
+    told = [said for said in made.sentences("en") if said.startswith("at φ = 120° the velocity drops, and the profile")]
+    assert undercut == bool(told)
+    assert (not undercut, None) == (made.ok, made.wanted_base)
+
+
+@pytest.mark.parametrize(("roller", "stretches"), [(12, 2), (6, 0)])
+def test_a_profile_that_the_roller_cuts_away_from_another_flank_is_undercut(roller, stretches):
+    law = [{"to": 40, "rise": 100, "by": "345"}, {"to": 70, "rise": 20, "by": "345"},
+           {"to": 110, "fall": 120, "by": "345"}, {"to": 360}]  # fmt: skip
+    scene = graphkin.read("cam-offset-roller").to_dict()
+    scene["frame"]["guides"] = {"g": {"through": "A", "angle": 90}}
+    scene["cams"]["1"] = {"follower": "2", "law": law, "base": {"r": 14, "of": "pitch"}, "roller": roller}
+    (made,) = graphkin.cam(scene).made
+    assert (stretches, stretches > 0) == (len(made.study.undercut), crosses_itself(made.cam))
+    assert stretches == "\n".join(made.sentences("en")).count("the roller cuts it away from other angles of the cam")
+
+
+def test_degrees_of_a_law_are_those_of_the_file():
+    law = [{"to": 110, "rise": 24, "by": "uniform"}, {"to": 120}, {"to": 220, "fall": 24, "by": "parabolic"}]
+    scene = graphkin.read("cam-offset-roller").replace("cams.1.law", [*law, {"to": 360}])
+    data = graphkin.cam(scene).data["cams"]["1"]
+    assert [0, 110, 120, 170, 220] == [jump["degree"] for jump in data["jumps"]]
+    assert {0, 110, 120, 170, 220} <= {division["degree"] for division in data["divisions"]}
