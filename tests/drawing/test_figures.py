@@ -17,7 +17,7 @@ from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, svg_bytes
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.sheet import sheet_page
-from graphkin.drawing.ink.primitives import Circle, Group, Polygon, walk
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.drawing.text import text_box
 from graphkin.scene import library, mechanism_of, mechanism_of_text
@@ -349,3 +349,29 @@ def test_a_redundant_crank_stands_on_a_fixed_pivot_and_bears_its_pins() -> None:
     rings = {name: sum(isinstance(one, Circle) for one in walk(points[f"point-{name}"].children)) for name in "ADEF"}
     assert {"A": 1, "D": 1, "E": 1, "F": 1} == rings
     assert 3 == sum(isinstance(one, Polygon) for one in walk(points["link-0"].children))
+
+
+def follower_figure(name: str, tip: dict[str, object], points: list[str]) -> dict[str, Group | Text]:
+    """The named parts of the mechanism figure of a cam whose follower has some tip, and some points."""
+    scene = graphkin.read(name).to_dict()
+    scene["links"]["2"]["points"] = points
+    scene["cams"]["1"] = {key: scene["cams"]["1"][key] for key in ("follower", "law", "base")} | tip
+    made = graphkin.draw(scene, figures=["mechanism"]).figures["mechanism"]
+    return {part.id: part for part in walk(made.children) if isinstance(part, Group | Text) and part.id}
+
+
+@pytest.mark.parametrize("tip", [{"roller": 8}, {}, {"flat": True}], ids=["roller", "edge", "face"])
+def test_a_follower_without_points_has_the_bar_from_its_block_to_its_tip(tip: dict[str, object]) -> None:
+    links = [follower_figure("cam-flat-face", tip, points)["link-2"] for points in (["B"], [])]
+    with_point, without = (
+        [z for part in link.children if isinstance(part, Line) for z in (part.start, part.end)] for link in links
+    )
+    assert len(with_point) > 0
+    assert with_point == pytest.approx(without)
+
+
+def test_the_letter_of_the_guide_that_replaces_a_flat_face_stands_at_the_face() -> None:
+    parts = follower_figure("cam-flat-face", {"flat": True}, ["B"])
+    (face,), letter = parts["follower-2"].children, text_box(parts["label-guide-2-f"])
+    assert isinstance(face, Line)
+    assert min(abs(end - letter.centre) for end in (face.start, face.end)) < 5

@@ -36,6 +36,7 @@ from graphkin.drawing.parts.dimensioning import drawn_lengths
 from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, LinkShape, MechanismOnPaper
 from graphkin.drawing.parts.polygon import same_place
 from graphkin.drawing.parts.touching import (
+    FLAT,
     beside_face_of_frame,
     block_on_circle,
     cams_alone,
@@ -271,9 +272,13 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
         if name in written:
             written.discard(name)
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
+            # a block that stands for a cam slides along the face of its follower
+            face = next((one.point for one in here.touching.cams if one.cam.flat and b.slide.key in here.replaced_pairs
+                         and one.cam.follower == b.slide.b), None)  # fmt: skip
+            start, edge = (b.at, edge) if face is None else (face, FLAT)
             letter = rich(here.letters.guide(name, here.ground), 3.0)
             text = Text(0j, letter, "start", strokes.BLACK, f"label-guide-{b.slide.b}-{name}", ("label",))
-            ends = on_page(b.at), on_page(b.at + edge * b.along)
+            ends = on_page(start), on_page(start + edge * b.along)
             inside = panel.grown(-0.5).clip(*ends) if panel is not None else ends
             yield Label(text, (inside or ends)[1], (phase(b.along),), 0)
 

@@ -126,7 +126,8 @@ class MechanismOnPaper:
                 found.append(LinkShape(link.name, points, corners, bars, redundant=True))
             elif link.name in self.sheet.poses:
                 flat = frozenset(b.slide.key for b in self._faces)
-                found.append(_shape(link.name, points, (*slides, *self._faces), flat))
+                tips = tuple(one.point for one in self.touching.cams if one.cam.follower == link.name)
+                found.append(_shape(link.name, points, tips, (*slides, *self._faces), flat))
         return tuple(found)
 
     @cached_property
@@ -231,9 +232,9 @@ class MechanismOnPaper:
 
 
 def _shape(
-    name: str, points: dict[str, complex], slides: tuple[Slider, ...], flat: frozenset[str] = frozenset()
+    name: str, points: dict[str, complex], tips: tuple[complex, ...], slides: tuple[Slider, ...], flat: frozenset[str]
 ) -> LinkShape:
-    anchors = _apart((*points.values(), *(b.at for b in slides if b.slide.a == name)))
+    anchors = _apart((*points.values(), *tips, *(b.at for b in slides if b.slide.a == name)))
     carried: dict[str, list[Slider]] = {}
     for b in slides:
         if b.slide.b == name:
