@@ -247,6 +247,7 @@ class LargerGroup:
     rolling: tuple[RollingRelation, ...] = ()
     starts: tuple[Driver, ...] = ()
     explicit: ClassVar[bool] = False  # found by Newton's method
+    joints: ClassVar[tuple[DrivenJoint, ...]] = ()  # of bodies in one piece
     rolled: ClassVar[None] = None
     lifted: ClassVar[None] = None
 

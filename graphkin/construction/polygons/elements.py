@@ -235,10 +235,9 @@ def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: VectorCha
     """Draw a move of a plan."""
     for edge in (e for path in step.sides for e in path if e.held):
         # the point of the contour that the equation needs
-        held_plot = plot.seen[edge.held]
-        before = len(held_plot.board.steps)
+        held_plot = plot.seen_from(edge.held)
         held_plot.end(order, edge.end if edge.forward else edge.start)
-        for drawn in held_plot.board.steps[before:] if not plot.trial else ():
+        for drawn in held_plot.board.steps if not plot.trial else ():
             plot.do(drawn)
     if step.is_special and step.end.point not in plot.places:
         _mark_special(plot, step)
@@ -300,7 +299,7 @@ def _graph_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> 
     driven: Collection[str] = ()
     rolling: Mapping[str, tuple[str, tuple[str, str]]] = {}
     if isinstance(group, Dyad):
-        joints = [joint for body in group.bodies for joint in body.joints]
+        joints: Sequence[DrivenJoint] = group.joints
         pairs: Sequence[Pair] = (*group.pairs, *(joint.pair for joint in joints))
     else:
         held = [(d, driver_pair(d, plot.links, plot.structure.slides)) for d in group.drivers if d.turns]
@@ -402,8 +401,7 @@ def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> lis
     choices = []
     for held in sorted((n for n in contour if "/" not in n), key=lambda n: -outer.count(n)):
         rest = _on(group, held, contour)
-        made = plot.fork(0).holding(group, held)
-        plan = next(_plans(made, rest), None)
+        plan = next(_plans(plot.seen_from(held, group), rest), None)
         if plan is not None and not plan.tried:
             plot.plans[rest] = plan
             choices.append((held, rest))
@@ -424,17 +422,16 @@ def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
 def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
     """Draw the contours of a group, each in its motion seen from one of its links."""
     for held, rest in plot.contours.get(group, ()):
-        held_plot = plot.seen[held] if held in plot.seen else plot.holding(group, held)
+        held_plot, equations = plot.seen_from(held, group), len(plot.board.equations)
         if rest.members[0] in held_plot.rates[order]:
             continue
-        before, equations = len(held_plot.board.steps), len(plot.board.equations)
         spread(held_plot, order, held, rest)
         _turn_driven(held_plot, order, rest)
         _draw_group(held_plot, order, rest)
         for name in rest.members:
             held_plot.complete(order, name)
         first = equations + 1 if len(plot.board.equations) > equations else None
-        drawn = held_plot.board.steps[before:]
+        drawn = held_plot.board.steps
         points = [step for step in drawn if step.diagram == "mechanism"]
         seen = RateStep("carry over", "seen from", order, (), first, held=held, links=rest.links)
         for step in (*points, seen, *(step for step in drawn if step.diagram != "mechanism")):

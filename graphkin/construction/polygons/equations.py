@@ -56,26 +56,19 @@ Side = list[tuple[RelativeMotion, list[Term]]]
 def same_turn(plot: Polygons, group: Dyad | LargerGroup) -> dict[str, str]:
     """For each link of a group a link with the same rotation up to given ones: a known link if there is any, no block
     of a contact that is drawn itself."""
-    if plot.part_of is not None and isinstance(group, LargerGroup):
-        # links of the group that are not of the contour turn as unknown as its own
-        alike = links_alike(group.members, turned(plot, None, group))
-        inside = set(group.members)
-        return {n: plot.ground if plot.ground in alike[n] else min(alike[n] & inside) for n in group.members}
+    names, alike = group.members, links_alike(group.members, turned(plot, None, group))
     without = {c.block for c in contacts_of(plot.structure, group)} if plot.at_contacts else set()
-    names = group.members
-    alike = links_alike(names, turned(plot, None, group))
-    representative = {n: min(alike[n].difference(without), default=n) for n in names}
-    return {n: next((m for m in sorted(alike[n]) if m not in names), representative[n]) for n in names}
+    # links of the group that are not of a contour turn as unknown as its own
+    known = {plot.ground} if plot.held else set().union(*alike.values()).difference(names)
+    return {n: min(alike[n] & known or alike[n].intersection(names) - without, default=n) for n in names}
 
 
 def turned(plot: Polygons, order: Order | None, group: Dyad | LargerGroup) -> list[tuple[str, str, float]]:
     """Links a and b of a group that turn alike up to a given rate: (a, b, the rate of b from a); without an order only
     the links."""
     whole = plot.part_of or group
-    joints = () if isinstance(whole, LargerGroup) else tuple(joint for body in whole.bodies for joint in body.joints)
-    drivers = whole.drivers if isinstance(whole, LargerGroup) else tuple(joint.driver for joint in joints)
-    pairs = [(p.a, p.b, 0.0) for p in (*whole.pairs, *(joint.pair for joint in joints)) if not p.turns]
-    for d in drivers:
+    pairs = [(p.a, p.b, 0.0) for p in (*whole.pairs, *(joint.pair for joint in whole.joints)) if not p.turns]
+    for d in whole.drivers:
         if d.turns:
             pairs.append((d.relative_to, d.link, plot.given[d.key][ORDERS.index(order)] if order else 0.0))
     for held, rest in plot.contours.get(group, ()) if isinstance(group, LargerGroup) else ():
@@ -296,7 +289,8 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
     sides = [_side_of(plot, order, path) for path in equation.sides]
     if equation.base:
         symbol = plot.symbol(letter(order), equation.end, PointRef(equation.end.point, equation.base))
-        plot.relative_special[order, equation.end.point] = 0j
+        special, ref = plot.seen_from(equation.base).ends[order], PointRef(equation.end.point)
+        special[ref] = 0j
         if not any(part.span for side in sides for part in _parts(side)):
             return  # exactly: nothing drives a leg
         written = ((Term(symbol, False, False),), *map(_written, sides))
@@ -319,7 +313,7 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
     mm = plot.found_mm(symbol, vector.span)
     plot.do(VectorStep("read", "vector", order, (vector,), number, symbol=symbol, mm=mm))
     if equation.base:
-        plot.relative_special[order, equation.end.point] = vector.span
+        special[ref] = vector.span
     else:
         _rate(plot, order, bar, vector, group)
 
@@ -402,7 +396,8 @@ def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
         return _rolling_parts(plot, order, edge)
     if edge.special:
         # as a polygon of its own gave it: nothing where both special points move alike
-        span = plot.relative_special[order, edge.end.point] * (1 if edge.forward else -1)
+        base, sense = (edge.labels[0].link, 1) if edge.forward else (edge.labels[1].link, -1)
+        span = plot.seen[base].ends[order][PointRef(edge.end.point)] * sense
         return [_term(plot, edge, letter(order), unit(span), abs(span), edge.direction)] if span else []
     if edge.held:
         return _contour_parts(plot, order, edge)
@@ -510,7 +505,7 @@ def _contour_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     """The point of one link of a contour relative to that of another, as a polygon with one of them held still gave it;
     with the Coriolis term of the held link's turning: a = a_r + 2 omega v_r.  Seen from another link the relative
     acceleration is a_r + 2 (omega_held - omega) v_r."""
-    seen = plot.seen[edge.held]
+    seen = plot.seen_from(edge.held)
     sense, moving = (1, edge.end) if edge.forward else (-1, edge.start)
     slip = sense * seen.end("velocity", moving)
     if order == "velocity":

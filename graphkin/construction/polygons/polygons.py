@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.board.scales import Scales
@@ -76,6 +76,24 @@ class OwnValues:
 AS_DRAWN = OwnValues()
 
 
+class Motion(NamedTuple):
+    """The motion of the links seen from one of them, as far as it is drawn: end points (mm), measured rates, vectors.
+
+    A point that no link has is special, of this link and another: its end is the difference of their motions there.
+    """
+
+    ends: dict[Order, dict[PointRef, complex]]
+    rates: dict[Order, dict[str, Rate]]
+    drawn: dict[Order, dict[Symbol, Vector]]
+
+    @classmethod
+    def begun(cls, links: Mapping[str, PlacedLink], ground: str) -> Motion:
+        """The motion seen from a link, whose points are in the poles, before it is drawn."""
+        fixed = dict.fromkeys(map(PointRef, links[ground].points), 0j)
+        return cls({order: dict(fixed) for order in ORDERS}, {order: {ground: Rate(ground, 0.0)} for order in ORDERS},
+                   {order: {} for order in ORDERS})  # fmt: skip
+
+
 @dataclass(frozen=True, eq=False)
 class Polygons:
     """The velocity and the acceleration polygon of a position, as far as they are drawn: the collections grow with each
@@ -92,13 +110,12 @@ class Polygons:
     chains, plans : the construction of each group, found once for all drawings of a task
     contours : for each group its links held still, each with the rest on it
     special, pitch_points : the special points, and the letters where wheels of larger groups roll on each other
-    relative_special : by a special point of two links: that of the second from it (mm)
     believed : links whose rates are own values, not measured
     tried : rates of sliding pairs moved at a trial speed (m/s, m/s2)
     trains : velocity plans of rolling links
     trial : the number of the trial polygon that this is; 0 for none
     held, part_of : the link that is held still, "" for the frame, and the group whose it is
-    seen : polygons with a link of a contour held still, by that link
+    seen : motion seen from links of larger groups
     """
 
     board: Board
@@ -119,14 +136,13 @@ class Polygons:
     contours: dict[LargerGroup, tuple[tuple[str, LargerGroup], ...]] = field(default_factory=dict)
     special: set[str] = field(default_factory=set)
     pitch_points: dict[str, str] = field(default_factory=dict)
-    relative_special: dict[tuple[Order, str], complex] = field(default_factory=dict)
     believed: set[tuple[Order, str]] = field(default_factory=set)
     tried: dict[tuple[Order, str], float] = field(default_factory=dict)
     trains: list[TrainPlan] = field(default_factory=list)
     trial: int = 0
     held: str = ""
     part_of: LargerGroup | None = None
-    seen: dict[str, Polygons] = field(default_factory=dict)
+    seen: dict[str, Motion] = field(default_factory=dict)
 
     @classmethod
     def begun(
@@ -136,7 +152,7 @@ class Polygons:
         links = dict(structure.links)
         places = {point: paper.point(name, point) for name in paper.poses for point in links[name].points}
         size = max((abs(z - w) for z in places.values() for w in places.values()), default=1.0)
-        given, begun = {d.key: d.values[1:] for d in structure.drivers}, _empty(links, structure.scene.frame.name)
+        given, begun = {d.key: d.values[1:] for d in structure.drivers}, Motion.begun(links, structure.scene.frame.name)
         return cls(board, structure, paper, scales, links, places, 1e-11 * size, *begun, own_values, given)
 
     @cached_property
@@ -157,33 +173,21 @@ class Polygons:
     def again(self, hand: Instrument) -> Polygons:
         """The same polygons as they stand here, to go on with by other hands."""
         copies = {part.name: _copied(getattr(self, part.name)) for part in fields(self) if part.name not in SHARED}
-        seen = {held: seen.again(hand) for held, seen in self.seen.items()}
-        return replace(self, **{**copies, "seen": seen}).on_board(self.board.again(hand))
+        return replace(self, **{**copies, "board": self.board.again(hand)})
 
     def fork(self, trial: int) -> Polygons:
         """The same polygons on a board of their own, with the same hands, which do not read twice what they have read:
         the trial polygons of that number."""
         board = Board(self.board.instrument, readings=self.board.readings)
-        return replace(self.again(self.board.instrument), trial=trial).on_board(board)
+        return replace(self.again(self.board.instrument), trial=trial, board=board)
 
-    def holding(self, group: LargerGroup, held: str) -> Polygons:
-        """Empty polygons with a link of a group held still, as if it were the frame; drawn on the same mechanism."""
-        ends, rates, drawn = _empty(self.links, held)
-        self.seen[held] = replace(
-            self.fork(0), part_of=group, held=held, contours={}, own_values=OwnValues(line=self.own_values.line),
-            ends=ends, rates=rates, drawn=drawn, seen={},
-        )  # fmt: skip
-        self.seen.update(self.on_board(self.board).seen)
-        return self.seen[held]
-
-    def on_board(self, board: Board) -> Polygons:
-        """These on a board; those with a link held still share its equations and readings, and special points."""
-        seen = {
-            held: replace(seen, links=self.links, places=self.places, special=self.special,
-                          board=replace(seen.board, readings=board.readings, equations=board.equations))
-            for held, seen in self.seen.items()
-        }  # fmt: skip
-        return replace(self, board=board, seen=seen)
+    def seen_from(self, held: str, group: LargerGroup | None = None) -> Polygons:
+        """These polygons with a link of a group held still, as if it were the frame, on a board of their own."""
+        motion = self.seen.setdefault(held, Motion.begun(self.links, held))
+        board = Board(self.board.instrument, equations=self.board.equations, readings=self.board.readings)
+        own_values = OwnValues(line=self.own_values.line)
+        return replace(self, **motion._asdict(), board=board, own_values=own_values, believed=set(), trial=0, held=held,
+                       part_of=group, seen={})  # fmt: skip
 
     def do(self, step: Step) -> None:
         """Record a step.  Seen from a held link only vectors are shown: end points get their letters in the polygon of
@@ -402,19 +406,12 @@ class Polygons:
         )
 
 
-def _empty(
-    links: Mapping[str, PlacedLink], ground: str
-) -> tuple[dict[Order, dict[PointRef, complex]], dict[Order, dict[str, Rate]], dict[Order, dict[Symbol, Vector]]]:
-    """End points, rates and vectors of empty polygons, in which a link is the ground."""
-    fixed = dict.fromkeys(map(PointRef, links[ground].points), 0j)
-    return ({order: dict(fixed) for order in ORDERS}, {order: {ground: Rate(ground, 0.0)} for order in ORDERS},
-            {order: {} for order in ORDERS})  # fmt: skip
-
-
 def _copied(kept: Any) -> Any:
     """A copy of a collection with the collections in it; another value as it is."""
     if isinstance(kept, dict):
         return {key: _copied(value) for key, value in kept.items()}
+    if isinstance(kept, Motion):
+        return Motion(*map(_copied, kept))
     return type(kept)(kept) if isinstance(kept, set | list) else kept
 
 
