@@ -537,13 +537,14 @@ class Inversion:
         """The key of the equivalent driver at the common pair."""
         return self.triangle.equivalent.key
 
-    def placed(
-        self, values: Mapping[str, float], mm: float = 0.0, instrument: Instrument = EXACT, board: Board | None = None
-    ) -> PlacedLinks:
-        """The triangle at driver values; ``mm`` of paper for one m, else of its size; recorded on a board.  Raises
-        Unsolvable."""
-        mm, assembly = mm or 1.0 / self.structure.scene.size, Assembly(values, {}, {0: self.branch})
-        return place(self.structure, self.structure.elements, mm, assembly, instrument, board)
+    def assembly(self, values: Mapping[str, float]) -> Assembly:
+        """The triangle in its assembly at driver values."""
+        return Assembly(values, {}, {0: self.branch})
+
+    def placed(self, values: Mapping[str, float]) -> PlacedLinks:
+        """The triangle at driver values, on paper of its size.  Raises Unsolvable."""
+        mm = 1.0 / self.structure.scene.size
+        return place(self.structure, self.structure.elements, mm, self.assembly(values))
 
     def followed(self, at_start: Mapping[str, float], values: Mapping[str, float]) -> Inversion:
         """The inversion in the assembly at some driver values, followed from the scene's own."""
@@ -574,23 +575,20 @@ class Inversion:
     def drawn(self, board: Board, scales: Scales, values: Mapping[str, float]) -> tuple[float, float, float]:
         """The triangle on a board of its own, with its two polygons, which are recorded on the mechanism's board as
         drawn with a link held still; its result at the common pair: value, rate and second rate (SI)."""
-        second_board = Board(board.instrument)
-        paper = self.placed(values, 1.0 / scales.length, board.instrument, second_board)
-        polygons = Polygons.begun(second_board, self.structure, paper, scales)
-        for order in ORDERS:
-            draw_element(polygons, order, *self.structure.dyads.values())
-        board.causes += second_board.causes
-        board.held_still += second_board.steps
+        alone = Plan(self.structure, self.structure, (), self.structure.elements, self.assembly(values), ())
+        polygons = carried_out(alone, scales, board.instrument)
+        board.causes += polygons.board.causes
+        board.held_still += polygons.board.steps
         pair, other = self.triangle.pair, self.triangle.links[0]
         if pair.turns:
             rate, second = (polygons.rates[order][other].value for order in ORDERS)
         else:
             # the other link cannot turn on the held one: all its points move alike
-            along = pair.along(paper.poses) * (1 if pair.a == other else -1)
+            along = pair.along(polygons.paper.poses) * (1 if pair.a == other else -1)
             points = map(PointRef, self.structure.links[other].points)
             end = next(ref for ref in points if ref in polygons.ends["velocity"])
             rate, second = (dot(along, polygons.ends[order][end]) * scales.of(order) for order in ORDERS)
-        return self.read(paper), rate, second
+        return self.read(polygons.paper), rate, second
 
     def carried_over(self, motion: Sequence[float]) -> Iterator[Step]:
         """The results carried over to each diagram: value, rate and second rate (SI) at the common pair."""
