@@ -45,7 +45,7 @@ from graphkin.construction.polygons.equations import (
     turned,
 )
 from graphkin.construction.polygons.polygons import RATE, Polygons, letter
-from graphkin.construction.polygons.seen_from import Joint, contours
+from graphkin.construction.polygons.seen_from import contours_of, on_held
 from graphkin.construction.polygons.vector_graph import (
     RelativeMotion,
     VectorChain,
@@ -355,7 +355,7 @@ def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple
     """The plans of a group with fewer than ``trials`` trials: special points carried over to all links that turn with
     theirs, its contours drawn first if that saves more; none where neither helps, and then the useless special point.
     The links held still are chosen so that vectors seen from them are laid off in their own sense."""
-    choices = [_rests_on(plot, group, links) for links in _contours_of(plot, group)]
+    choices = [_rests_on(plot, group, links) for links in contours_of(plot, group, turned(plot, None, group))]
     choices = [some for some in choices if some]
     best: tuple[tuple[int, bool], list[GroupPlan]] | None = None
     far: FarPoint | None = None
@@ -375,32 +375,13 @@ def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple
     return (best[1] if best is not None else []), far
 
 
-def _contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
-    """The contours of a group on paper; none where its links roll or touch."""
-    if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
-        return []
-    held = [driver_pair(driver, plot.links, plot.structure.slides) for driver in group.drivers]
-    hinged = {frozenset(pair.links) for pair in held if pair is not None and pair.turns}
-    keys = {driver.key for driver in group.drivers if not driver.turns}
-    inside, joints = set(group.members), list[Joint]()
-    for pair in (pair for pair in group.pairs if inside.issuperset(pair.links)):
-        if pair.turns:
-            joints.append((pair.links, plot.places[pair.point], None, frozenset(pair.links) in hinged))
-        else:
-            at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
-            along = pair.along(plot.paper.poses)
-            joints.append((pair.links, at, along, pair.key in keys))
-    turning = [(a, b) for a, b, _ in turned(plot, None, group) if inside.issuperset((a, b))]
-    return contours(group.members, joints, turning)
-
-
 def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> list[tuple[str, LargerGroup]]:
     """The links of a contour that can be held still so that the rest is drawn on it without trials; those with most
     other links on them first."""
     outer = [n for p in group.pairs for n in (p.a, p.b) if not {p.a, p.b} <= set(contour)]
     choices = []
     for held in sorted((n for n in contour if "/" not in n), key=lambda n: -outer.count(n)):
-        rest = _on(group, held, contour)
+        rest = on_held(group, held, contour)
         plan = next(_plans(plot.seen_from(held, group), rest), None)
         if plan is not None and not plan.tried:
             plot.plans[rest] = plan
@@ -440,15 +421,6 @@ def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
         for name in (held, *rest.members):
             if name in plot.rates[order]:
                 spread(plot, order, name, group)
-
-
-def _on(group: LargerGroup, held: str, contour: Sequence[str]) -> LargerGroup:
-    """The links of a contour besides the held link, as a group of their own."""
-    rest = tuple(n for n in contour if n != held)
-    within = set(contour)
-    drivers = tuple(d for d in group.drivers if within.issuperset(d.links))
-    pairs = tuple(p for p in group.pairs if within.issuperset(p.links))
-    return LargerGroup(rest, pairs, drivers, tuple(n for n in rest if n in group.links), group.order)
 
 
 def _against(plan: GroupPlan) -> bool:

@@ -13,12 +13,36 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphkin.construction.polygons.vector_graph import links_alike
+from graphkin.construction.polygons.polygons import Polygons
+from graphkin.construction.polygons.vector_graph import contacts_of, links_alike
+from graphkin.structure import LargerGroup, driver_pair
 
 ALIKE = 1e-9  # of unit motions: what differs less moves alike
 Joint = tuple[tuple[str, str], complex, complex | None, bool]
 """What joins two links: a hinge in a place, or along a direction a sliding pair; and whether a driver gives how they
 turn or slide on each other."""
+
+
+def contours_of(plot: Polygons, group: LargerGroup, turned: Sequence[tuple[str, str, float]]) -> list[tuple[str, ...]]:
+    """The contours of a group on paper, of which links are ``turned`` alike; none where its links roll or touch."""
+    if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
+        return []
+    held = [driver_pair(driver, plot.links, plot.structure.slides) for driver in group.drivers]
+    driven = {(pair.turns, frozenset(pair.links)) for pair in held if pair is not None}
+    poses, inside, joints = plot.paper.poses, set(group.members), list[Joint]()
+    for pair in (pair for pair in group.pairs if inside.issuperset(pair.links)):
+        letter, along = pair.point or pair.pin, None if pair.turns else pair.along(poses)
+        at = plot.places[letter] if letter else poses[pair.a].origin
+        joints.append((pair.links, at, along, (pair.turns, frozenset(pair.links)) in driven))
+    return contours(group.members, joints, [(a, b) for a, b, _ in turned if inside.issuperset((a, b))])
+
+
+def on_held(group: LargerGroup, held: str, contour: Sequence[str]) -> LargerGroup:
+    """The links of a contour besides the held link, as a group of their own."""
+    rest, within = tuple(n for n in contour if n != held), set(contour)
+    drivers = tuple(d for d in group.drivers if within.issuperset(d.links))
+    pairs = tuple(p for p in group.pairs if within.issuperset(p.links))
+    return LargerGroup(rest, pairs, drivers, tuple(n for n in rest if n in group.links), group.order)
 
 
 def contours(
