@@ -14,7 +14,7 @@ from functools import partial
 
 import numpy as np
 
-from graphkin.errors import Problem, Unsolvable
+from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.drivers import at_time
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -67,9 +67,11 @@ def solve(
     SceneError
         a larger group has several assemblies and no sketch
     CallError
-        ``at`` names no driver
+        ``at`` names no driver or holds no number, ``sweep`` is less than 1
     """
     structure = structure_of(scene)
+    if sweep is not None and sweep < 1:
+        raise CallError.of("sweep", "positions of number", "give 1 or more", number=sweep)
     start = _start(structure, at, sweep)
     if isinstance(start, Motion):
         return start

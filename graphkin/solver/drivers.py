@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
+from numbers import Real
 
 import numpy as np
 
@@ -136,7 +137,7 @@ def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:
     for key, value in (at or {}).items():
         if key not in keys:
             raise CallError.of(f'at "{key}"', "there is no such driver", did_you_mean(key, keys))
-        if not np.isfinite(value):
+        if not isinstance(value, Real) or not math.isfinite(value):
             raise CallError.of(f'at "{key}"', "is no driver value of value", value=value)
         goal[keys.index(key)] = value
     return goal

@@ -8,6 +8,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 
+from graphkin.errors import CallError
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver import Motion, solve, sweep_in_blocks
@@ -193,3 +194,18 @@ def test_a_sweep_that_is_refused_has_its_reason_in_blocks_too() -> None:
     (refused,) = sweep_in_blocks(cylinder, far, 3)
     assert solve(cylinder, far, 3).why == refused.why
     assert refused.why[0].endswith("the motion reaches from 100 mm to 500 mm")
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"sweep": 0}, {"en": "sweep: 0 positions; give 1 or more", "zh": "sweep：0 个位置；请给 1 或更大"}),
+        ({"sweep": -3}, {"en": "sweep: -3 positions; give 1 or more"}),
+        ({"at": {"1": "x"}}, {"en": 'at "1": x is no driver value'}),
+        ({"at": {"1": float("nan")}}, {"en": 'at "1": nan is no driver value'}),
+    ],
+)
+def test_numbers_that_are_none_are_refused_in_a_sentence(given, said):
+    with pytest.raises(CallError) as stop:
+        solve(scene("FOUR_BAR"), **given)
+    assert said == {language: stop.value.text(language) for language in said}
