@@ -23,7 +23,7 @@ NO_MOTION = 1e-9
 TOLERANCE = 1e-9
 ON_PAPER = 1e-5  # rad: 0.001 mm at 100 mm, which no paper shows; far from a drawing that is wrong
 FAIR = 1e-3  # of the largest: a value that may be off by more is not determined by the centres
-SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
+SAFETY = 4.0  # the bound of a centre, or of a velocity by centres, over its error of first order
 
 
 @dataclass(frozen=True, repr=False)
@@ -126,8 +126,12 @@ def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> 
     if strength <= NO_MOTION * largest:
         return None
     _, sine = wedge(normal(place), normal(centre.place))
-    # what rounding does to the exact one grows as the relative motion gets small beside the motions themselves
+    # what rounding does to both grows as the relative motion gets small beside the motions themselves, and where a rate
+    # is measured over a short arm
     unit = centres.chart.unit / centres.mm
-    places = float(motion.bound.position[0]) / unit + float(motion.rates_in_double[0][0]) / (unit * strength)
+    rates = centres.sheet.rates["omega"]
+    shortest = min([unit, *(rates[name].arm for name in centre.pair if name in rates and rates[name].arm)])
+    rounded = float(motion.bound.position[0]) / unit + float(motion.rates_in_double[0][0]) / (shortest * strength)
     # as do the numbers of the file, where they lie far apart
-    return sine, TOLERANCE + 1e-14 * largest / strength + (places if math.isfinite(places) else 0.0)
+    given = TOLERANCE + 1e-14 * largest / strength
+    return sine, given + SAFETY * centre.error + (rounded if math.isfinite(rounded) else 0.0)

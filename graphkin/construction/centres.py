@@ -316,18 +316,22 @@ def _placed(scene: Mechanism, sheet: Sheet) -> Centres:
     return Centres(scene, sheet, poses)
 
 
-def measured(links: Centres) -> dict[str, tuple[complex, float]]:
+def measured(links: Centres) -> dict[str, tuple[complex, float, float]]:
     """The motion of every link in the velocity polygon: the velocity of its point in the middle of the chart (mm/s on
-    paper), by one of its end points, and its angular velocity (rad/s)."""
+    paper), by one of its end points, its angular velocity (rad/s), and what this has lost where its vector was taken
+    for rounding: over a short arm that may be much."""
     sheet, ground = links.sheet, links.sheet.scene.frame.name
     per_mm, ends = sheet.scales.velocity / sheet.scales.length, sheet.ends["velocity"]
-    motions = {ground: (0j, 0.0)}
+    motions = {ground: (0j, 0.0, 0.0)}
     for name, rate in sheet.rates["omega"].items():
         points = sheet.structure.links[name].points
         for ref, end in ends.items():
             if name != ground and (ref.link == name or (not ref.link and ref.point in points)):
                 arm = links.chart.middle - sheet.points[PointRef(ref.point)]
-                motions[name] = end * per_mm + 1j * rate.value * arm, rate.value
+                read, lost = rate.vector, 0.0
+                if read and rate.mm == 0.0 and rate.arm and ends.keys() >= {read.of, read.to}:
+                    lost = abs(ends[read.of] - ends[read.to]) * sheet.scales.velocity / rate.arm
+                motions[name] = end * per_mm + 1j * rate.value * arm, rate.value, lost
                 break
     return motions
 
@@ -491,7 +495,7 @@ def _with_table(links: Centres, instrument: Instrument) -> Centres:
     for centre in _permanent(links):
         if centre.pair not in diagram.table:
             diagram.take(centre)
-    largest = max((abs(chart.pole(*motion)[1]) for motion in motions.values()), default=0.0)
+    largest = max((abs(chart.pole(v, omega)[1]) for v, omega, _ in motions.values()), default=0.0)
     number = 0
     while len(diagram.table) < len(links.pairs):
         number += 1
@@ -507,7 +511,9 @@ def _with_table(links: Centres, instrument: Instrument) -> Centres:
     return replace(links, table={pair: diagram.table[pair] for pair in links.pairs})
 
 
-def _otherwise(diagram: CircleDiagram, motions: Mapping[str, tuple[complex, float]], largest: float) -> Centre:
+def _otherwise(
+    diagram: CircleDiagram, motions: Mapping[str, tuple[complex, float, float]], largest: float
+) -> Centre:
     """A centre that Kennedy's theorem does not give now: the place at which two links have the same velocity.
 
     Parameters
@@ -523,11 +529,11 @@ def _otherwise(diagram: CircleDiagram, motions: Mapping[str, tuple[complex, floa
     why = few if count < 2 else together
     if not motions.keys() >= {*pair}:
         return Centre(pair, "undetermined", why=why)
-    (velocity, omega), (other_velocity, other_omega) = motions[pair[0]], motions[pair[1]]
+    (velocity, omega, lost), (other_velocity, other_omega, other_lost) = motions[pair[0]], motions[pair[1]]
     place, strength = diagram.links.chart.pole(velocity - other_velocity, omega - other_omega)
     if abs(strength) <= AT_REST * largest:
         return Centre(pair, "undetermined", why=Phrase("centre no motion", **links))
-    error = MEASURED * max(1.0, SLOW * largest / abs(strength))
+    error = MEASURED * max(1.0, SLOW * largest / abs(strength)) + (lost + other_lost) / abs(strength)
     way: Literal["superposition", "velocity polygon"] = "superposition" if diagram.links.kept else "velocity polygon"
     return Centre(pair, "found", place, way=way, why=why, error=error)
 
