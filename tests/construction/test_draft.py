@@ -198,6 +198,31 @@ def test_a_parallelogram_goes_on_as_one_through_its_change_point():
     assert sheet.poses["1"].axis == pytest.approx(sheet.poses["3"].axis, abs=1e-9)
 
 
+def slotted_plate(offset: float) -> dict[str, Any]:
+    """A plate about C with a slot for the pin of a crank, which passes C at a distance of 68 mm."""
+    return {
+        "frame": {"points": {"A": [0, 0], "C": [-148, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 80},
+            "2": {"points": ["C"], "guides": {"s": {"through": [0, offset], "angle": 0}}},
+        },
+        "pins": {"B": {"of": "1", "in": "2.s"}},
+        "driver": {"link": "1", "angle": 90, "omega": 5},
+    }
+
+
+@pytest.mark.parametrize("offset", [60, 67.9, 67.9999])
+def test_a_dyad_keeps_its_assembly_where_the_other_comes_near(offset):
+    pin = 80 * cmath.rect(1, math.radians(260)) + 148
+    along = math.sqrt(abs(pin) ** 2 - offset**2)  # the plate's x axis points from the foot of the offset to the pin
+    sheet = draft(mechanism_of(slotted_plate(offset)), at={"1": math.radians(260)})
+    assert pin / complex(along, offset) == pytest.approx(sheet.poses["2"].axis, abs=1e-9)
+
+
+def test_a_turn_is_drawn_all_round_where_the_other_assembly_of_a_dyad_comes_near():
+    assert graphkin.check(slotted_plate(67.999) | {"find": ["swing_2"]}, at=100).ok
+
+
 def test_whole_turns_are_left_out_of_the_way_to_a_position():
     scene = mechanism_of("sixbar-AE70")
     once, thrice = (draft(scene, at={"1": 0.5 + turns * 2 * cmath.pi}) for turns in (0, 3))

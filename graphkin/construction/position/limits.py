@@ -83,8 +83,8 @@ class TurnOfCrank:
         turn = cls(PlacedElements(structure, elements), values, (start,))
         end = start.value + math.tau
 
-        def near(value: float, guess: Poses, _: Poses) -> Poses | None:
-            here = turn.near(value, guess)
+        def near(value: float, guess: Poses, before: Poses) -> Poses | None:
+            here = turn.near(value, guess, before)
             return None if here is None else here.poses
 
         steps = walk(near, start.poses, start.value, end, STEP, SMALLEST * STEP, SURPRISE, at_first=AT_FIRST)
@@ -95,10 +95,11 @@ class TurnOfCrank:
             raise Unsolvable("no whole turn", Problem(why, "the motion does not repeat after one turn"))
         return replace(turn, positions=tuple(positions))
 
-    def near(self, value: float, guess: Poses) -> LimitPosition | None:
-        """The position at a crank's value, near its expected place; None where the links do not fit there."""
+    def near(self, value: float, guess: Poses, before: Poses | None = None) -> LimitPosition | None:
+        """The position at a crank's value, near its expected place, and followed from another; None where the links do
+        not fit there."""
         values = {**self.values, self.placed.structure.scene.drivers[0].key: value}
-        poses = found_near(self.placed, values, guess, self.positions[0].poses)
+        poses = found_near(self.placed, values, guess, self.positions[0].poses, before)
         return None if poses is None else LimitPosition(value, poses)
 
     def limits(self, output: Pair | str, why: str) -> Limits:

@@ -36,6 +36,7 @@ from graphkin.words import Phrase
 SAME_HOLE = 1e-9
 """Points of a link that lie nearer to each other on paper (mm) are pricked once."""
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
+MEETING = 1e-5  # of the size of the mechanism: a step that moves no link farther may pass a change point
 
 
 def apart(poses: Poses, other: Poses) -> float:
@@ -124,8 +125,12 @@ class RigidBody:
         self.paper, self.body = paper, body
         self.rel: dict[str, Pose] = {body.links[0]: Pose(0j, 1 + 0j)}
         for joint in body.joints:
-            value = paper.values[joint.driver.key]
             base = self.rel[joint.a]
+            if joint.a in paper.poses and joint.b in paper.poses:  # as they lie
+                a, b = paper.poses[joint.a], paper.poses[joint.b]
+                self.rel[joint.b] = Pose(base.place(a.local(b.origin)), unit(base.axis * b.axis / a.axis))
+                continue
+            value = paper.values[joint.driver.key]
             if joint.pair.turns:
                 turned = (joint.driver.link == joint.b) if joint.driver.turns else True
                 axis = base.axis * direction(math.degrees(value if turned else -value))
@@ -470,11 +475,21 @@ def meet(paper: PlacedLinks, dyad: Dyad) -> Intersection:
     return _INTERSECTIONS[dyad.kind](paper, dyad, RigidBody(paper, dyad.first), RigidBody(paper, dyad.second))
 
 
-def met_near(paper: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
-    """The assembly of a dyad nearest to a guess."""
+def met_near(paper: PlacedLinks, dyad: Dyad, guess: Poses, before: Poses | None = None) -> Poses | None:
+    """The assembly of a dyad nearest to a guess.
+
+    ``before`` are the poses from which all links are followed: the dyad keeps the assembly that it has in them, for a
+    guess says little where another comes near; only a short step passes from one to another, where they meet.
+    """
     intersection = meet(paper, dyad)
     branch = intersection.nearest(guess)
-    return None if branch is None else intersection.poses[branch]
+    if branch is None:
+        return None
+    poses = intersection.poses[branch]
+    if before is not None and len(intersection.poses) > 1 and moved(poses, before) > MEETING:
+        kept = meet(replace(paper, poses=dict(before)), dyad).nearest(before)
+        return poses if branch == kept else None
+    return poses
 
 
 def refuse(structure: Structure, element: Dyad, intersection: Intersection) -> None:

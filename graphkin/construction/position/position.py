@@ -290,7 +290,7 @@ def moved_to(
             return {k: own[k] + part * (target[k] - own[k]) for k in own}
 
         def near(part: float, guess: Poses, there: Poses, at: Callable[[float], dict[str, float]] = at) -> Poses | None:
-            return found_near(placed, at(part), guess, there)
+            return found_near(placed, at(part), guess, there, there)
 
         # nothing says yet where the links go: the first step is small
         steps = walk(near, poses, 0.0, 1.0, longest, longest / 1e10, SURPRISE, longest / 64)
@@ -302,10 +302,10 @@ def moved_to(
 
 
 def found_near(
-    placed: PlacedElements, values: Mapping[str, float], guess: Poses, start: Poses
+    placed: PlacedElements, values: Mapping[str, float], guess: Poses, start: Poses, before: Poses | None = None
 ) -> dict[str, Pose] | None:
     """All links of the elements at driver values, near a guessed position, on paper of the mechanism's size; None where
-    they do not fit nearby.  Rolling links are followed from ``start``."""
+    they do not fit nearby.  Rolling links are followed from ``start``, dyads from ``before`` (see `met_near`)."""
     structure = placed.structure
     ground = structure.scene.frame.name
     values = structure.followed(values)
@@ -313,7 +313,7 @@ def found_near(
 
     def choose(_: int, element: Dyad | LargerGroup) -> Poses | None:
         if isinstance(element, Dyad):
-            return met_near(paper, element, guess)
+            return met_near(paper, element, guess, before)
         drawing = placed.best(element, paper, guess)
         if drawing is not None and element.rolling:
             return fitted(placed.last[element].rolled_from(start, paper.mm), paper, guess)
