@@ -290,7 +290,7 @@ def _named(convention: Convention, symbol: Symbol) -> tuple[str, str]:
                 return "R", links + at
             return "F", ("R" if convention == "chinese" else "") + links + at
         case "F":
-            return "F", symbol.link
+            return "F", symbol.link + at
         case "Fi":
             return letter, mark + symbol.link
         case "Mi":

@@ -329,8 +329,9 @@ def measured(links: Centres) -> dict[str, tuple[complex, float, float]]:
             if name != ground and (ref.link == name or (not ref.link and ref.point in points)):
                 arm = links.chart.middle - sheet.points[PointRef(ref.point)]
                 read, lost = rate.vector, 0.0
-                if read and rate.mm == 0.0 and rate.arm and ends.keys() >= {read.of, read.to}:
-                    lost = abs(ends[read.of] - ends[read.to]) * sheet.scales.velocity / rate.arm
+                if read and rate.mm == 0.0 and rate.arm:
+                    tip, tail = (ends.get(point, 0j) if point else 0j for point in (read.of, read.to))
+                    lost = abs(tip - tail) * sheet.scales.velocity / rate.arm
                 motions[name] = end * per_mm + 1j * rate.value * arm, rate.value, lost
                 break
     return motions

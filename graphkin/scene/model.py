@@ -641,6 +641,17 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
     return tuple(replace(joint, several=more) for joint, more in zip(pairs, several, strict=True))
 
 
+def balance_of(mechanism: Mechanism, driver: Driver) -> Symbol:
+    """The balancing load in place of a driver: a moment ``M_2``, or a force ``F_2`` along the guide on which link 2
+    slides, ``F_2@B`` where other drivers push that link too."""
+    if driver.turns:
+        return Symbol("M", link=driver.link)
+    pins = {slide.key: slide.pin for slide in mechanism.slides}
+    link, pin = mechanism.body_of(driver.link), pins.get(driver.key)
+    several = sum(not d.turns and mechanism.body_of(d.link) == link for d in mechanism.drivers) > 1
+    return Symbol("F", PointRef(pin) if several and pin else None, link=link)
+
+
 def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
     """Every force and moment of a mechanism that has masses, loads or springs, in the order in which they are told."""
     loading = mechanism.loading
@@ -653,10 +664,9 @@ def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
     for joint in joints(mechanism):
         made += [joint.symbol("F"), *([joint.symbol("M")] if joint.couple else [])]
     if loading.balance is not None:
-        balances = [(loading.balance.is_force, loading.balance.link)]
+        made.append(Symbol("F" if loading.balance.is_force else "M", link=loading.balance.link))
     else:
-        balances = [(not d.turns, d.link if d.turns else mechanism.body_of(d.link)) for d in mechanism.drivers]
-    made += [Symbol("F" if is_force else "M", link=link) for is_force, link in balances]
+        made += [balance_of(mechanism, driver) for driver in mechanism.drivers]
     return tuple(dict.fromkeys(made))
 
 

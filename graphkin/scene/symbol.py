@@ -56,7 +56,7 @@ def forms_of_names(point: str, link: str, lax: bool = False) -> dict[str, str]:
         "pair": rf"{one}{between('/-')}{other}",
         "links": rf"{one}{between('-/')}{other}",
         "place": part("of"),
-        "link or joint": rf"{one}(?:{between('/')}{other}(?:@{of})?)?{plus}",
+        "link or joint": rf"{one}(?:{between('/')}{other})?(?:@{of})?{plus}",
         "of link": rf"{one}{plus}",
     }
     named = {
@@ -125,7 +125,7 @@ KINDS = {
         Kind("swing", "angle", "link", "turn", "swing_3", letter="ψ"),
         Kind("K", "number", "link of link", "turn", "K_5/6"),
         Kind("theta_lag", "angle", "link of link", "turn", "theta_lag_5/6", letter="θ", mark="K"),
-        Kind("F", "force", "link or joint", "force", "F_5/6, F_5/6@C, F_2", True),
+        Kind("F", "force", "link or joint", "force", "F_5/6, F_5/6@C, F_2, F_2@B", True),
         Kind("Fi", "force", "of link", "force", "Fi_6", True),
         Kind("G", "force", "of link", "force", "G_6", True),
         Kind("P", "force", "load", "force", "P_cut", True),
@@ -172,7 +172,8 @@ class Symbol:
     ``other`` its links (of a sliding pair the sliding and the guiding link; of a pin in a slot ``link`` is the pin).
     ``at`` names the position, "" for this one.
 
-    Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is the name of a load, or
+    Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); of a balance ``of`` is the place
+    where it acts on ``link`` (where several drivers push that); ``name`` is the name of a load, or
     of the force of an arm; with ``plus`` a load that begins or ends exactly there acts.  ``turning`` marks a load that
     is a moment, which its name does not tell.  ``seen`` is the link held still, from which a vector is seen; "" for the
     frame.  ``axis`` is "x" or "y" for a component of a vector along an axis of the frame; ``along`` marks the component

@@ -19,7 +19,7 @@ import numpy as np
 
 from graphkin.errors import CallError, Unsolvable
 from graphkin.plane import cross
-from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, joints, no_force
+from graphkin.scene.model import EDGE, ForceJoint, LoadOn, SpringOn, balance_of, joints, no_force
 from graphkin.scene.pairs import ContactMotion, Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.algebra.constraints import solve_all
@@ -89,15 +89,14 @@ def balances(motion: Motion) -> list[PairForce]:
         symbol = Symbol("F" if said.is_force else "M", link=said.link)
         return [PairForce(symbol, scene.frame.name, said.link, along, np.asarray(pose.fixed(said.at).z))]
     for driver in scene.drivers:
+        symbol = balance_of(scene, driver)
         if driver.turns:
             at = np.asarray(motion.poses[driver.link].z)
-            found.append(PairForce(Symbol("M", link=driver.link), driver.relative_to, driver.link, None, at))
+            found.append(PairForce(symbol, driver.relative_to, driver.link, None, at))
             continue
         slide = motion.structure.slide(driver.key)
-        link = slide.body
         along = -1j * _square(motion, slide)
-        force = Symbol("F", link=link)
-        found.append(PairForce(force, slide.b or scene.frame.name, link, along, _foot(motion, slide)))
+        found.append(PairForce(symbol, slide.b or scene.frame.name, slide.body, along, _foot(motion, slide)))
     return found
 
 

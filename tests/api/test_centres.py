@@ -127,7 +127,7 @@ def test_velocities_by_centres_hold_near_a_dead_centre(angle: float) -> None:
     ],
 )
 def test_centres_may_be_off_by_what_a_rate_loses_over_a_short_arm(mechanism: dict[str, Any], at: float) -> None:
-    # two guides turn parallel: links of a few centimetres slide far off, and the velocities of their ends differ by 1e-10
+    # two guides turn parallel: short links slide far off, and the velocities of their ends differ by 1e-10
     assert graphkin.centres(mechanism, at=at).ok
 
 

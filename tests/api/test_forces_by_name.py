@@ -155,3 +155,29 @@ def test_the_balance_by_the_lever_is_told_in_the_units_of_the_scene():
     checked = graphkin.check(graphkin.read("shaper-forces").replace("units", {"force": "kN"}))
     moment = f"{checked['M_2'].measured:.2f}"
     assert f"M_2 = {moment} kN m by the lever, {moment} kN m by the polygons" in report_text(checked, "en")
+
+
+def test_two_cylinders_on_one_link_have_a_force_each():
+    plate = {
+        "frame": {"points": {"D": [0, 0], "E": [-60, -80], "G": [160, -60]}},
+        "links": {
+            "5": {"points": ["D", "H"], "length": 60},
+            "1": {"points": ["H", "B"], "length": 70, "at": {"C": [40, 30]}},
+            "3": {"points": ["E"]},
+            "4": {"points": ["G"]},
+        },
+        "pins": {"B": {"of": "1", "in": "3"}, "C": {"of": "1", "in": "4"}},
+        "masses": {"1": {"at": "B", "mass": 3}},
+        "gravity": {"g": 10},
+        "driver": [{"slide": "B/3", "travel": 170, "velocity": 0}, {"slide": "C/4", "travel": 130, "velocity": 0}],
+        "sketch": {"H": [30, 50], "B": [90, 20], "C": [60, 80]},
+    }
+    solved = graphkin.solve(plate, find=["F_1@B", "F_1@C", "H", "B", "C"])
+    h, b, c = (complex(solved[f"{p}@1"][0]) for p in "HBC")
+    # three forces along the rod and both cylinders carry 30 N at B
+    lines = [(h, h), (b, b - (-60 - 80j)), (c, c - (160 - 60j))]
+    units = [along / abs(along) for _, along in lines]
+    arms = [((at - b).conjugate() * u).imag for (at, _), u in zip(lines, units, strict=True)]
+    _, at_b, at_c = np.linalg.solve([[u.real for u in units], [u.imag for u in units], arms], [0, 30, 0])
+    assert [at_b * units[1], at_c * units[2]] == pytest.approx([solved["F_1@B"][0], solved["F_1@C"][0]])
+    assert graphkin.check(plate, find=["F_1@B", "F_1@C"]).ok

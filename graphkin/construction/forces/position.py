@@ -21,7 +21,7 @@ from graphkin.construction.forces.steps import ForceStep, ForceVector, Inertia, 
 from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
-from graphkin.scene.model import Driver, ForceJoint, LinkMass, LoadOn, SpringOn, hosts_at, joints
+from graphkin.scene.model import Driver, ForceJoint, LinkMass, LoadOn, SpringOn, balance_of, hosts_at, joints
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Structure, analyse
@@ -152,7 +152,7 @@ class DrawnPosition:
             link, other = (driver.link, driver.relative_to) if said is None else (said.link, frame)
             return ForceVector(Symbol("M", link=link), link=link, moment=1.0, off=other)
         slide = self.structure.slide(driver.key)
-        symbol = Symbol("F", link=slide.body)
+        symbol = balance_of(scene, driver)
         return ForceVector(symbol, link=slide.a, force=self.along(slide), at=self.foot(slide), off=slide.b)
 
     def slip(self, slide: Pair) -> tuple[float, float]:
