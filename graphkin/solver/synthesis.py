@@ -231,35 +231,32 @@ def _(task: GuideBarTask) -> Synthesis:
 
 @synthesise.register
 def _(task: BarPositionsTask) -> Synthesis:
-    bars = task.positions
+    bars, others = task.positions, Phrase("other pivots or other positions")
+    ends = {"B": bars[0].B, "C": bars[0].C}
     if task.A is None or task.D is None:
-        A = _centre(tuple(bar.B for bar in bars), "B")
-        D = _centre(tuple(bar.C for bar in bars), "C")
-        B, C = bars[0].B, bars[0].C
-        lengths = {"AB": abs(B - A), "BC": abs(C - B), "CD": abs(C - D), "AD": abs(A - D)}
-        return Synthesis(task, lengths, {"A": A, "D": D}, {"A": A, "B": B, "C": C, "D": D})
-    M = _centre(tuple(bar.moved(task.A, bars[0]) for bar in bars), "A")
-    N = _centre(tuple(bar.moved(task.D, bars[0]) for bar in bars), "D")
-    A, D = task.A, task.D
-    lengths = {"AM": abs(M - A), "MN": abs(N - M), "DN": abs(N - D), "AD": abs(A - D)}
-    points = {"A": A, "D": D, "M": M, "N": N}
-    for key, length in lengths.items():
-        if length < IN_LINE * max(lengths.values()):
-            raise _refused(
-                "positions",
-                Phrase("and fall together", key=key[0], other=key[1]),
-                Phrase("other pivots or other positions"),
-            )
-    return Synthesis(task, lengths, points, {**points, "B": bars[0].B, "C": bars[0].C})
+        A, D = (_centre(tuple(getattr(bar, end) for bar in bars), end, Phrase("three different places")) for end in "BC")
+        chain = {"A": A, **ends, "D": D}
+        names = "AB", "BC", "CD", "AD"
+    else:
+        A, D = task.A, task.D
+        if abs(A - D) <= IN_LINE * abs(bars[0].C - bars[0].B):
+            raise _refused("A", Phrase("lies where d lies"), Phrase("two pivots apart from each other"))
+        M, N = (_centre(tuple(bar.moved(z, bars[0]) for bar in bars), name, others) for name, z in (("A", A), ("D", D)))
+        chain = {"A": A, "M": M, "N": N, "D": D}
+        names = "AM", "MN", "DN", "AD"
+    lengths = {name: abs(chain[name[1]] - chain[name[0]]) for name in names}
+    for (one, other), length in lengths.items():
+        if length <= IN_LINE * max(lengths.values()):
+            raise _refused("positions", Phrase("and fall together", key=one, other=other), others)
+    return Synthesis(task, lengths, {k: z for k, z in chain.items() if k not in ends}, chain | ends)
 
 
-def _centre(points: tuple[complex, ...], letter: str) -> complex:
-    """The centre of the circle through three points."""
+def _centre(points: tuple[complex, ...], letter: str, apart: Phrase) -> complex:
+    """The centre of the circle through three points; ``apart`` is what would make them different."""
     a, b, c = points
     size = max(abs(b - a), abs(c - b), abs(a - c))
     if min(abs(b - a), abs(c - b), abs(a - c)) <= IN_LINE * size:
-        raise _refused("positions", Phrase("two of the places of are one so", letter=letter),
-                       Phrase("three different places"))
+        raise _refused("positions", Phrase("two of the places of are one so", letter=letter), apart)
     area = cross(b - a, c - a)
     if abs(area) <= IN_LINE * size**2:
         raise _refused("positions", Phrase("the three places of lie in one line", letter=letter),

@@ -31,6 +31,11 @@ LIMITS = {"kind": "limits", "A": [0, 0], "D": [100, 20], "rocker": 60, "angles":
 PLACES = {"kind": "three-positions", "BC": 80, "positions": [
     {"B": [10, 60], "angle": 10}, {"B": [35, 80], "angle": -8}, {"B": [70, 82], "angle": -35}]}  # fmt: skip
 PAIRS = {"kind": "function", "frame": 10, "pairs": [[60, 20], [75, 45], [135, 130]]}
+POLE = [10 + 12.5 + 10 / math.tan(math.radians(9)), 60 + 10 - 12.5 / math.tan(math.radians(9))]
+"""About it the bar turns from its first place to the second."""
+ABOUT_ONE_CENTRE = {"kind": "three-positions", "positions": [
+    {"B": [3 * c - 4 * s, 4 * c + 3 * s], "C": [9 * c - 12 * s, 12 * c + 9 * s]}
+    for c, s in ((1, 0), (0.8, 0.6), (0, 1))]}  # fmt: skip
 EACH = [SLIDER, ROCKER, EVEN, BAR, LIMITS, PLACES, {**PLACES, "A": [11, -35], "D": [57, 28]}, PAIRS]
 
 
@@ -155,6 +160,9 @@ def test_fixed_pivots_given_the_moving_ones_are_carried_by_the_bar():
         ({**LIMITS, "A": [100, 20]}, "two pivots apart"),
         ({**LIMITS, "A": [99, -80]}, "to one side"),
         ({**PLACES, "positions": [{"B": [x, 0], "angle": x} for x in (0, 10, 20)]}, "in one line"),
+        ({**PLACES, "A": [11, -35], "D": [11, -35]}, "A: lies where D lies; two pivots apart"),
+        ({**PLACES, "A": POLE, "D": [57, 28]}, "two of the places of A are one, .*; other pivots or other positions"),
+        (ABOUT_ONE_CENTRE, "A and D fall together"),
         ({**PAIRS, "pairs": [[30, 45], [30, 45], [120, 90]]}, "three pairs"),
     ],
 )
