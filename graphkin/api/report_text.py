@@ -276,10 +276,10 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
     for name, (quantity, extremes) in ranges.items():
         unit = quantity.unit(scene.units)
         parts = [
-            f"{word('greatest' if e.kind == 'max' else 'least', language)} {unit.of(e.value):.6g} @ {_at(scene, e)}"
+            f"{word('greatest' if e.kind == 'max' else 'least', language)} {unit.of(e.value):.6g} @ {_at(turn, e)}"
             for e in extremes if math.isfinite(e.value)
         ]
-        if away := dict.fromkeys(_at(scene, e) for e in extremes if math.isinf(e.value)):
+        if away := dict.fromkeys(_at(turn, e) for e in extremes if math.isinf(e.value)):
             places = word("list comma", language).join(away)
             parts.insert(0, say(Phrase("grows without bound at", place=places), language))
         lines.append(_named(name, unit, language) + word("list semicolon", language).join(parts))
@@ -312,8 +312,16 @@ def _between(scene: Mechanism, stretch: Stretch, language: str) -> str:
     return " – ".join(value if ended else "..." for value, ended in zip((low, high), stretch.ends, strict=True))
 
 
-def _at(scene: Mechanism, extreme: Extreme) -> str:
-    return scene.place_said(scene.drivers[0], extreme.driver)
+def _at(turn: TurnStudy, extreme: Extreme) -> str:
+    from graphkin.study.extremes import driver_value
+
+    begin = driver_value(turn.reach, extreme.offset - extreme.rest) if extreme.rest else extreme.driver
+    return _stretch(turn.scene, begin, extreme.driver)
+
+
+def _stretch(scene: Mechanism, begin: float, end: float) -> str:
+    """The driver's values at both ends of a stretch, one where they are the same."""
+    return " – ".join(dict.fromkeys(scene.place_said(scene.drivers[0], value) for value in (begin, end)))
 
 
 def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
@@ -336,7 +344,7 @@ def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
         also = f"{word('list comma', language)}{word(without, language)}" if without else ""
         lag = say(Phrase("in brackets", words=f"θ = {math.degrees(back[1]):.8g}°{also}"), language)
         said += f"{word('list comma', language)}K = {back[0]:.10g}{lag}"
-    listed = (f"{amount(e.value)} @ {_at(scene, e)}" for e in output.position.extremes)
+    listed = (f"{amount(e.value)} @ {_at(turn, e)}" for e in output.position.extremes)
     places = word("list comma", language).join(listed)
     return [head + said, f"  {word('limit position', language)}{colon}{places}"]
 
@@ -352,11 +360,11 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
             if extreme is not None:
                 value = unit.of(extreme.value)
                 named = word(f"local {key}" if extreme.local else key, language)
-                parts.append(f"{named} {value:.6g} @ {_at(scene, extreme)}")
+                parts.append(f"{named} {value:.6g} @ {_at(turn, extreme)}")
         if traced.unbounded:
             parts.append(word("unbounded", language))
         if traced.zeros:
-            places = word("list comma", language).join(scene.place_said(scene.drivers[0], z) for z in traced.zeros)
+            places = word("list comma", language).join(_stretch(scene, *ends) for ends in traced.zero_stretches)
             parts.append(f"{word('zero at', language)} {places}")
         lines.append(_named(str(quantity), unit, language) + word("list semicolon", language).join(parts))
     return lines

@@ -234,7 +234,8 @@ def _(task: BarPositionsTask) -> Synthesis:
     bars, others = task.positions, Phrase("other pivots or other positions")
     ends = {"B": bars[0].B, "C": bars[0].C}
     if task.A is None or task.D is None:
-        A, D = (_centre(tuple(getattr(bar, end) for bar in bars), end, Phrase("three different places")) for end in "BC")
+        apart = Phrase("three different places")
+        A, D = (_centre(tuple(getattr(bar, end) for bar in bars), end, apart) for end in "BC")
         chain = {"A": A, **ends, "D": D}
         names = "AB", "BC", "CD", "AD"
     else:
@@ -245,9 +246,9 @@ def _(task: BarPositionsTask) -> Synthesis:
         chain = {"A": A, "M": M, "N": N, "D": D}
         names = "AM", "MN", "DN", "AD"
     lengths = {name: abs(chain[name[1]] - chain[name[0]]) for name in names}
-    for (one, other), length in lengths.items():
+    for name, length in lengths.items():
         if length <= IN_LINE * max(lengths.values()):
-            raise _refused("positions", Phrase("and fall together", key=one, other=other), others)
+            raise _refused("positions", Phrase("and fall together", key=name[0], other=name[1]), others)
     return Synthesis(task, lengths, {k: z for k, z in chain.items() if k not in ends}, chain | ends)
 
 

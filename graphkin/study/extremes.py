@@ -41,6 +41,8 @@ ASIDE = 1e-3
 """Of the way from a zero to the nearer end of the motion: so far aside of it the curve is not zero."""
 ZERO = 0.01
 """Of the values there: what a curve is at most where it is zero."""
+AT_REST = 1e-12
+"""Of the largest value: what a curve is at most along a stretch where it is zero."""
 HAIR = 1e-6
 """Of the range of the driver: what is left out before an end at which links go away without bound."""
 
@@ -60,14 +62,27 @@ class Extreme:
 
 @dataclass(frozen=True)
 class Traced:
-    """A quantity over the driver's range: its extremes in the order of the motion, and its zeros (driver);
-    ``unbounded`` if it grows without bound towards an end of the range."""
+    """A quantity over the driver's range: its extremes in the order of the motion, and its zeros (driver), of a stretch
+    along which it is zero both ends; ``rests`` tells of each whether it is zero from there to the next; ``unbounded``
+    if it grows without bound towards an end of the range."""
 
     quantity: Symbol
     extremes: tuple[Extreme, ...]
     zeros: tuple[float, ...]
     constant: float | None = None
     unbounded: bool = False
+    rests: tuple[bool, ...] = ()
+
+    @property
+    def zero_stretches(self) -> tuple[tuple[float, float], ...]:
+        """The first and the last driver value of each zero: the same, but of a stretch along which it is zero."""
+        found = []
+        for k in (k for k in range(len(self.rests)) if not self.rests[k - 1]):
+            last = k
+            while self.rests[last]:
+                last = (last + 1) % len(self.rests)
+            found.append((self.zeros[k], self.zeros[last]))
+        return tuple(found)
 
     def furthest(self, sense: float, kind: str = "") -> Extreme | None:
         """The extreme (of a kind) of the greatest value, with -1 for ``sense`` of the least; the first of equal ones.
@@ -299,8 +314,20 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
             extremes = tuple(replace(e, value=0.0) if e.value <= 1e-11 * most else e for e in extremes)
             least = [e.offset for e in extremes if e.value == 0.0 and e.kind != "end"]
             zeros = np.union1d(least, zeros[np.isin(zeros, reach.seams)])
-        found.append(Traced(quantity, extremes, tuple(driver_value(reach, float(z)) for z in zeros)))
+        at_zero = tuple(driver_value(reach, float(z)) for z in zeros)
+        found.append(Traced(quantity, extremes, at_zero, rests=_rests(way, curve, zeros)))
     return found
+
+
+def _rests(way: CurveParameter, curve: Curve, zeros: Array) -> tuple[bool, ...]:
+    """Whether a curve is zero from each of its zeros (offsets) to the next: along a dwell."""
+    reach, (low, high) = way.reach, way.reach.ends
+    at = zeros if reach.full else angles_between(zeros, low, high)
+    following = np.append(at[1:], at[:1] + (high - low) if reach.full else at[-1:])
+    between = at + np.linspace(0.0, 1.0, 5)[1:-1, None] * (following - at)
+    between = low + np.remainder(between - low, high - low) if reach.full else between
+    rests = (np.abs(curve.pieces.at(between, curve.k)) <= AT_REST * curve.pieces.scale[curve.k]).all(axis=0)
+    return (*rests[:-1].tolist(), *(rests[-1:] & reach.full).tolist())
 
 
 def _zeros(way: CurveParameter, curves: Sequence[Curve]) -> list[Array]:

@@ -280,16 +280,33 @@ def test_nothing_is_said_to_turn_fully_where_no_link_on_the_frame_does() -> None
     assert "double-rocker (its coupler can turn fully)\n" in said
 
 
-def test_a_K_that_leaves_out_dwells_says_so() -> None:
-    scene = {
+def dwelling(angle: float = 30, rise: str = "345") -> dict[str, object]:
+    """A cam whose follower rests at both ends of its stroke."""
+    return {
         "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": "A", "angle": 90}}},
         "links": {"1": {"points": ["A"]}, "2": {"points": ["B"], "on": "0.g"}},
         "cams": {"1": {"follower": "2", "base": {"r": 80}, "law": [
-            {"to": 100, "rise": 20, "by": "345"}, {"to": 150}, {"to": 350, "fall": 20, "by": "345"}, {"to": 360},
+            {"to": 100, "rise": 20, "by": rise}, {"to": 130}, {"to": 150}, {"to": 350, "fall": 20, "by": "345"},
+            {"to": 360},
         ]}},
-        "driver": {"link": "1", "angle": 30, "omega": 10},
+        "driver": {"link": "1", "angle": angle, "omega": 10},
     }  # fmt: skip
-    assert "K = 2 (θ = 60°, dwells not counted)" in graphkin.sweep(scene, positions=4).text
+
+
+def test_a_K_that_leaves_out_dwells_says_so() -> None:
+    assert "K = 2 (θ = 60°, dwells not counted)" in graphkin.sweep(dwelling(), positions=4).text
+
+
+@pytest.mark.parametrize("angle", [30, 130, 140, 200, 355])
+def test_a_dwell_is_told_from_its_beginning_to_its_end(angle: float) -> None:
+    said = graphkin.sweep(dwelling(angle), positions=4).text
+    assert (True, True) == ("100 mm @ 100° – 150°" in said, "80 mm @ 350° – 0°" in said)
+    speed = next(line for line in said.splitlines() if "v_2/0" in line)
+    assert {"100° – 150°", "350° – 0°"} == set(speed.partition("zero at ")[2].split(", "))
+
+
+def test_a_speed_that_stays_the_greatest_is_told_from_where_it_begins() -> None:
+    assert "maximum 114.592 @ 0° – 100°" in graphkin.sweep(dwelling(rise="uniform"), positions=4).text
 
 
 def test_where_no_link_turns_fully_the_flywheel_is_named_once():
