@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.pairs import Pair
-from graphkin.structure.model import Coordinate, Driven, Dyad, Element, Structure
+from graphkin.structure.model import Coordinate, Driven, Element, Structure
 from graphkin.words.written import roman
 
 
@@ -182,8 +182,7 @@ def _found(structure: Structure) -> list[Loop]:
     known: list[Passage] = []
     loops: list[Loop] = []
     for element in structure.elements:
-        joints = element.joints if isinstance(element, Dyad) else ()
-        edges = [(pair.a, pair, pair.b) for pair in (*element.pairs, *(joint.pair for joint in joints))]
+        edges = [(pair.a, pair, pair.b) for pair in element.all_pairs]
         for cycle in () if isinstance(element, Driven) else _cycles(structure, element, edges, known):
             loops.append(Loop(roman(len(loops) + 1), _arrows(structure, cycle), element.links))
         known += edges

@@ -61,6 +61,11 @@ def _named(group: Element) -> Phrase:
     return named
 
 
+def _all_pairs(group: Element) -> tuple[Pair, ...]:
+    """All pairs, with those at which drivers hold links of a dyad's body together."""
+    return (*group.pairs, *(joint.pair for joint in group.joints))
+
+
 @dataclass(frozen=True)
 class RollingRelation:
     """A sum of coordinates with factors that keeps its value; ``links`` are the links that it ties.
@@ -125,6 +130,7 @@ class Driven:
     pair: Pair
     driver: Mover
     order: ClassVar[int] = 1
+    joints: ClassVar[tuple[DrivenJoint, ...]] = ()
     starts: ClassVar[tuple[Driver, ...]] = ()
     rolling: ClassVar[tuple[RollingRelation, ...]] = ()
 
@@ -137,6 +143,7 @@ class Driven:
     explicit: bool = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
+    all_pairs = property(_all_pairs)
 
     def __post_init__(self) -> None:
         driver = self.driver
@@ -194,6 +201,7 @@ class Dyad:
     is_two_lines: bool = field(init=False, repr=False, compare=False)
     is_slider_on_bar: bool = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
+    all_pairs = property(_all_pairs)
 
     @property
     def label(self) -> str:
@@ -247,13 +255,14 @@ class LargerGroup:
     rolling: tuple[RollingRelation, ...] = ()
     starts: tuple[Driver, ...] = ()
     explicit: ClassVar[bool] = False  # found by Newton's method
-    joints: ClassVar[tuple[DrivenJoint, ...]] = ()  # of bodies in one piece
+    joints: ClassVar[tuple[DrivenJoint, ...]] = ()
     rolled: ClassVar[None] = None
     lifted: ClassVar[None] = None
 
     kind: str = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
+    all_pairs = property(_all_pairs)
 
     def __post_init__(self) -> None:
         names = {name for pair in self.pairs for name in pair.links}

@@ -22,7 +22,7 @@ from graphkin.scene.pairs import Pair
 from graphkin.solver import Motion
 from graphkin.solver.algebra.constraints import solve_all
 from graphkin.solver.algebra.pose import Array
-from graphkin.structure import Driven, Dyad, Structure
+from graphkin.structure import Structure
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -113,13 +113,7 @@ class Equations:
 
     def _pairs(self) -> list[Pair]:
         """Every pair that joins the links."""
-        pairs: list[Pair] = []
-        for e in self.structure.elements:
-            if isinstance(e, Dyad):
-                pairs += [*e.pairs, *(joint.pair for joint in e.joints)]
-            else:
-                pairs += [e.pair] if isinstance(e, Driven) else e.pairs
-        return pairs
+        return [pair for element in self.structure.elements for pair in element.all_pairs]
 
     def _along(self, row: int, pair: Pair, along: complex) -> None:
         """The line of a sliding pair along a direction of its guide."""

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, Self
+from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.board.instruments import EXACT_NAME, Instrument
 from graphkin.construction.board.scales import Rectangle, Room, Scales, chosen_scales, extent_of
@@ -137,9 +137,9 @@ class Rate(OnPaper):
     ----------
     value : rad/s, rad/s2; counter-clockwise positive
     vector : the relative or tangential vector from which it comes; None for a given rate, or that of another link
-    mm, arm : the length of the vector on paper, and of the bar (m); without a bar ``mm`` was read off the rate scale of
-        a velocity plan
+    mm, arm : the length of the vector on paper, and of the bar (m)
     same_as : the other link whose rate it is
+    plan : whether ``mm`` was read off the rate scale of a velocity plan
     """
 
     link: str
@@ -148,15 +148,12 @@ class Rate(OnPaper):
     mm: float = 0.0
     arm: float = 0.0
     same_as: str = ""
+    plan: bool = False
 
     @property
     def is_own(self) -> bool:
         """Whether it was read off by itself, neither given nor the rate of another link."""
         return (self.vector is not None or self.mm != 0.0) and not self.same_as
-
-    def scaled(self, times: float) -> Self:
-        """The rate with its vector multiplied by ``times``; a rate read off a velocity plan stays."""
-        return super().scaled(times) if self.arm else self
 
 
 @dataclass(frozen=True)

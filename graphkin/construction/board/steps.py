@@ -158,11 +158,14 @@ LENGTHS = {
 
 
 class OnPaper:
-    """A value with places or lengths on paper (mm)."""
+    """A value with places or lengths on paper (mm), or on a velocity ``plan``, which has a scale of its own."""
+
+    plan: int = 0
 
     def scaled(self, times: float) -> Self:
-        """The value with its lengths multiplied by ``times``."""
-        return changed(self, **{name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS})
+        """The value with its lengths multiplied by ``times``, unless they are those of a plan."""
+        lengths = {name: value for name, value in vars(self).items() if name in LENGTHS}
+        return self if self.plan else changed(self, **{name: _times(value, times) for name, value in lengths.items()})
 
 
 def changed(value: Value, **fields: object) -> Value:
@@ -267,8 +270,7 @@ class Step(OnPaper):
     symbol : the vector that it draws or finds, or by which it measures
     link : the link that it places, turns or takes
     held : the link held still, from which it is seen; "" for the frame
-    plan : the velocity plan of wheels that it helps to draw, which has a scale of its own, by its number from 1; 0 on
-        a diagram
+    plan : the velocity plan of wheels that it helps to draw, by its number from 1; 0 on a diagram
     """
 
     verb: Verb
@@ -281,10 +283,6 @@ class Step(OnPaper):
     link: str = ""
     held: str = ""
     plan: int = 0
-
-    def scaled(self, times: float) -> Self:
-        """The step with its lengths multiplied by ``times``, except those of a plan."""
-        return self if self.plan else super().scaled(times)
 
     @property
     def vectors(self) -> tuple[Vector, ...]:

@@ -58,7 +58,6 @@ from graphkin.construction.position.links_on_paper import stuck
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.model import Driver
-from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, driver_pair
 from graphkin.words import links_named
@@ -105,11 +104,11 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     if isinstance(driver, Driver) and driver.turns:
         other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
         base = plot.rates[order][other].value
-        plot.rates[order][name] = Rate(name, base + sign * rate, mm=mm)
+        plot.rates[order][name] = Rate(name, base + sign * rate, mm=mm, plan=driver.rolls)
         if base or rate:
             add_rates(plot, order, name, (other, driver.link), rate)
     elif pair.turns:
-        plot.rates[order][name] = Rate(name, rate, mm=mm)
+        plot.rates[order][name] = Rate(name, rate, mm=mm, plan=driver.rolls)
     if pair.turns and name in plot.rates[order]:
         pivot = PointRef(pair.point)
         for end in first_ends(plot, name, pair.point):
@@ -298,15 +297,13 @@ def _graph_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> 
     """The points of a group and their relative motions; ``wide`` as in `VectorGraph`."""
     driven: Collection[str] = ()
     rolling: Mapping[str, tuple[str, tuple[str, str]]] = {}
-    if isinstance(group, Dyad):
-        joints: Sequence[DrivenJoint] = group.joints
-        pairs: Sequence[Pair] = (*group.pairs, *(joint.pair for joint in joints))
-    else:
+    contours: Sequence[tuple[str, LargerGroup]] = ()
+    pairs, joints = group.all_pairs, group.joints
+    if isinstance(group, LargerGroup):
         held = [(d, driver_pair(d, plot.links, plot.structure.slides)) for d in group.drivers if d.turns]
-        joints = [DrivenJoint(pair, driver, pair.b, pair.a) for driver, pair in held if pair is not None]
+        joints = tuple(DrivenJoint(pair, driver, pair.b, pair.a) for driver, pair in held if pair is not None)
         driven = {d.key for d in group.drivers if not d.turns}
-        rolling, pairs = _rolling_points(plot, group), group.pairs
-    contours = plot.contours.get(group, ()) if isinstance(group, LargerGroup) else ()
+        rolling, contours = _rolling_points(plot, group), plot.contours.get(group, ())
     names = {p.key: plot.guide_names(p) for p in pairs if not p.turns}
     touching = contacts_of(plot.structure, group) if plot.at_contacts else ()
     gone = {pair.block for pair in touching}

@@ -67,7 +67,7 @@ def turned(plot: Polygons, order: Order | None, group: Dyad | LargerGroup) -> li
     """Links a and b of a group that turn alike up to a given rate: (a, b, the rate of b from a); without an order only
     the links."""
     whole = plot.part_of or group
-    pairs = [(p.a, p.b, 0.0) for p in (*whole.pairs, *(joint.pair for joint in whole.joints)) if not p.turns]
+    pairs = [(p.a, p.b, 0.0) for p in whole.all_pairs if not p.turns]
     for d in whole.drivers:
         if d.turns:
             pairs.append((d.relative_to, d.link, plot.given[d.key][ORDERS.index(order)] if order else 0.0))
@@ -94,7 +94,7 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
     add : the rate of the second relative to the first (rad/s, rad/s2)
     """
     rate = plot.rates[order][known]
-    plot.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm, rate.same_as or known)
+    plot.rates[order][name] = replace(rate, link=name, value=rate.value + add, same_as=rate.same_as or known)
 
 
 def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], add: float) -> None:

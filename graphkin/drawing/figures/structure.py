@@ -26,7 +26,7 @@ from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.pairs import Pair
-from graphkin.structure import Driven, Dyad, Element, LargerGroup, Structure, replacement_told
+from graphkin.structure import Driven, Element, LargerGroup, Structure, replacement_told
 from graphkin.words import Phrase, class_of, languages, rich_text, say
 from graphkin.words.symbols import RichText, Words, sign, spaced
 
@@ -165,11 +165,8 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
 
 def _joints(element: Element) -> tuple[list[Pair], list[Pair]]:
     """Inner joints, between links of the group, and outer ones, to others."""
-    if isinstance(element, Dyad):
-        return [element.inner, *(joint.pair for joint in element.joints)], [*element.outer]
-    own = set(element.members)
-    inner = [p for p in element.pairs if {p.a, p.b} <= own]
-    return inner, [p for p in element.pairs if not {p.a, p.b} <= own]
+    inner = [p for p in element.all_pairs if {p.a, p.b} <= {*element.members}]
+    return inner, [p for p in element.all_pairs if p not in inner]
 
 
 def _group(sheet: Sheet, elements: Sequence[Element], letters: Notation, tag: str, panel: Box) -> Piece:

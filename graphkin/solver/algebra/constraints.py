@@ -23,7 +23,7 @@ import numpy as np
 
 from graphkin.scene.pairs import Pair
 from graphkin.solver.algebra.pose import FIELDS, Array, Drive, Pose, rest, together, turned
-from graphkin.structure import Driven, Dyad, LargerGroup, RollingRelation, Structure
+from graphkin.structure import Driven, LargerGroup, RollingRelation, Structure
 from graphkin.structure.model import Coordinate
 
 Jet = list[Array]
@@ -235,7 +235,7 @@ class Constraints:
             pairs: list[Pair] = []
             rolling: list[RollingRelation] = []
             for e in structure.elements:
-                pairs += [*e.pairs, *(joint.pair for joint in e.joints)] if isinstance(e, Dyad) else e.pairs
+                pairs += e.all_pairs
                 rolling += [led_relation(e)] if isinstance(e, Driven) and not e.drivers else e.rolling
             members = tuple(name for name in structure.links if name != frame)
             structure.kept["whole"] = LargerGroup(
