@@ -18,6 +18,7 @@ import os
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, fields, replace
 from decimal import Decimal
 from functools import cached_property
@@ -637,13 +638,12 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
         raise CallError.of(shown, "cannot be read", "name a csv file", reason=from_others(error)) from None
     if len(data) > largest:
         raise CallError.of(shown, "is larger than mb", "give fewer rows", largest=largest // 1_000_000)
-    text = ""
     for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
-        try:
+        with suppress(UnicodeDecodeError):
             text = data.decode(encoding)
             break
-        except UnicodeDecodeError:
-            continue
+    else:
+        raise CallError.of(shown, "is not utf-8 text", "save it as csv")
     first = text.split("\n", 1)[0]
     sign = max(",;\t", key=first.count)
     try:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from graphkin import table as room
 from graphkin.errors import CallError
-from graphkin.table import Column, Table, parquet_of_csv, table_of_csv, text_column
+from graphkin.table import Column, Table, parquet_of_csv, table_of, table_of_csv, text_column
 
 NUMBERS = [0.0, -0.0, 1.0, -1.5, 1e-6, 9.9e-7, 1e-5, 1 / 3, 1e10, 9999999999.5, 123456789012.3, 1e22, 5e-324, 3e-17]
 
@@ -174,3 +174,9 @@ def test_zero_has_no_sign_in_csv_and_json(form, cells):
     out = io.BytesIO()
     table.write_json(out)
     assert "-0.0," not in out.getvalue().decode()
+
+
+def test_a_picture_is_no_table_without_rows(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes(b"\x89PNG\r\n\x1a\n\x00\xff")
+    with pytest.raises(CallError, match="a.csv: is not UTF-8 text; save it as CSV"):
+        table_of(tmp_path / "a.csv")

@@ -21,7 +21,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import greatest_and_least
 from graphkin.solver import DriverRange, Motion
-from graphkin.study.extremes import Extreme
+from graphkin.study.extremes import Extreme, driver_value
 from graphkin.study.quantities import course_of
 from graphkin.study.turn import TurnStudy
 from graphkin.words import Phrase, rich_text, say, word
@@ -221,8 +221,7 @@ class DriverAxis(Axis):
         return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
     def driver(self, place: float) -> float:
-        value = float(self.reach.value(np.array(place)))
-        return value % math.tau if self.reach.full and self.reach.turns <= 1 else value
+        return driver_value(self.reach, place)
 
     def curve(self, quantity: Symbol, offsets: Array, values: Array) -> Array:
         """The curve of a quantity from its values (SI): of a whole turn the axis ends where it begins, a turn later."""

@@ -9,7 +9,7 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
-from graphkin.study.extremes import Extreme, Traced
+from graphkin.study.extremes import Extreme, Traced, driver_value
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import word
 
@@ -35,8 +35,8 @@ def _flywheel(turn: TurnStudy) -> dict[str, Json]:
             "driving_moment": found.driving / units.newtons,
             "work": found.work / units.newtons,
             "areas": areas,
-            "slowest": _driver(turn.scene, float(turn.reach.value(np.array(found.slowest)))),
-            "fastest": _driver(turn.scene, float(turn.reach.value(np.array(found.fastest)))),
+            "slowest": _driver(turn.scene, driver_value(turn.reach, found.slowest)),
+            "fastest": _driver(turn.scene, driver_value(turn.reach, found.fastest)),
             "excess_W": found.excess / units.newtons,
             "J_F": found.inertia / units.inertias,
         }

@@ -229,3 +229,18 @@ def test_the_driving_moment_of_loads_that_do_no_work_in_a_turn_is_nothing():
         "flywheel": {"on": "1", "delta": 0.04},
     }
     assert "constant driving moment 0 N m;" in graphkin.sweep(scene, positions=2).text
+
+
+def test_extremes_of_forces_stand_within_the_turns_after_which_the_motion_closes():
+    scene = graphkin.read("geared-five-bar").to_dict() | {"masses": {"2": {"at": "C", "mass": 1}}}
+    scene["driver"] |= {"angle": 640}
+    forces = graphkin.sweep(scene, positions=4).data["forces"]
+    assert [] == [e for f in forces.values() for e in f["extremes"] if not 0 <= e["driver"] < 2 * math.tau]
+
+
+@pytest.mark.parametrize("speed", [157.08, -157.08])
+def test_slowest_and_fastest_stand_within_a_turn(speed):
+    scene = graphkin.read("engine-gas-force").to_dict() | {"flywheel": {"on": "2", "delta": 0.02}}
+    scene["driver"] = {"link": "2", "angle": 30, "omega": speed}
+    found = graphkin.sweep(scene, positions=4).data["flywheel"]
+    assert [25.1320, 161.1270] == pytest.approx([math.degrees(found[k]) for k in ("slowest", "fastest")], abs=1e-4)
