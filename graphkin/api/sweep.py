@@ -369,7 +369,7 @@ def sweep(
     elsewhere = {} if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
         find = [*elsewhere]
-    base = FollowedDesign(given, _asked(given, find), tuple(sorted(start.items())))
+    base = FollowedDesign(given, _asked(given, find), tuple(sorted(start.items())), bool(made.keys))
     over = Sweep(base, name or given.name, positions, made, source if isinstance(source, Mapping) else None)
     spoken = language or given.question.sheet.language
     if out is None:

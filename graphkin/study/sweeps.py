@@ -60,11 +60,13 @@ class FollowedDesign:
 
     asked : the quantities of the table; empty: all motions
     at : driver values to start from (SI), by driver key; empty: the scene's position 1, or its own position
+    among : whether it is one of many designs, whose table has columns for forces that some of them do not have
     """
 
     scene: Mechanism
     asked: tuple[Symbol, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
+    among: bool = False
 
     @classmethod
     def prepared(cls, engine: PreparedMechanism) -> FollowedDesign:
@@ -80,16 +82,21 @@ class FollowedDesign:
     @cached_property
     def watched(self) -> tuple[Symbol, ...]:
         """The quantities of the table: the asked ones, or all that are known."""
-        if self.asked:
-            return self.asked
-        every = all_that_moves(self.structure)
-        try:
-            for load in self.scene.loading.loads:
+        every = self.asked or all_that_moves(self.structure)
+        if self.asked or self.among or self.unloaded is None:
+            return every
+        return tuple(symbol for symbol in every if not symbol.is_load)
+
+    @cached_property
+    def unloaded(self) -> Unsolvable | None:
+        """The reason why no forces are known: a load acts on a part of a stroke, and there is no whole turn."""
+        for load in self.scene.loading.loads:
+            try:
                 if load.phase and load.phase.stroke:
                     self.reach.stroke(load.phase.stroke)
-        except Unsolvable:
-            return tuple(symbol for symbol in every if not symbol.is_load)
-        return every
+            except Unsolvable as stop:
+                return load.without_stroke(stop)
+        return None
 
     @cached_property
     def start(self) -> dict[str, float]:
@@ -141,7 +148,9 @@ class FollowedDesign:
             motion = over_time(self.structure, times)
         else:
             motion = self.reach.motion(self.reach.table_offsets(n, np.arange(first, last)))
-        parts = tuple(parts_of(w, None if times is not None else self.reach, motion) for w in self.watched)
+        reach, nothing = None if times is not None else self.reach, np.full(len(motion), np.nan)
+        parts = tuple((nothing,) * len(w.heads) if w.is_load and self.among and self.unloaded is not None
+                      else parts_of(w, reach, motion) for w in self.watched)  # fmt: skip
         motion = self._known(motion)
         return self._rows(first, motion.values, parts, motion.status, motion.why, times)
 
@@ -175,7 +184,13 @@ class FollowedDesign:
 
     def _known(self, motion: Motion) -> Motion:
         """A motion, not solved where asked forces are unknown."""
-        return forces_of(motion).known_motion if any(w.is_load for w in self.watched) else motion
+        if not any(w.is_load for w in self.watched):
+            return motion
+        if not self.among or self.unloaded is None:
+            return forces_of(motion).known_motion
+        status = np.where(motion.ok & bool(self.asked), self.unloaded.status, motion.status)
+        reasons = (self.unloaded.reason if ok else why for ok, why in zip(motion.ok, motion.reasons, strict=True))
+        return replace(motion, status=status, reasons=tuple(reasons))
 
     def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
         """The table of positions without values."""
@@ -431,12 +446,12 @@ def made(sweep: Sweep) -> tuple[Table, list[Outcome]]:
     followed = [_followed(sweep, k) for k in range(len(designs))]
     first, last = sweep.some or (0, sweep.positions)
     arrays = _together(sweep, followed) if last - first == sweep.positions and keys else {}
-    tables, outcomes = [], []
+    tables, outcomes, alike = [], [], sweep.base.blank(0, 0)
     for k, design in enumerate(followed):
         number = designs.first + k
         table, outcome = _rows(sweep, number, design, arrays.get(k), first, last)
         shown = [str(v) if word else v for v, word in zip(designs[k], designs.worded, strict=True)]
-        tables.append(_with_design(table, keys, number, shown))
+        tables.append(_with_design(_like(alike, table), keys, number, shown))
         outcomes.append(outcome)
     return Table.joined(tables), outcomes
 
@@ -496,8 +511,17 @@ def _rows(
 def _outcome(number: int, table: Table, cells: Mapping[str, float | str | None]) -> Outcome:
     """The outcome of the rows of a design, by the first without values."""
     bad = np.flatnonzero(table["status"] != "ok")
-    status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
-    return Outcome(number, status, why, cells, len(table) - len(bad))
+    told = bad[0] if len(bad) else 0
+    return Outcome(number, table["status"][told], table["why"][told], cells, len(table) - len(bad))
+
+
+def _like(other: Table, table: Table) -> Table:
+    """A table in the columns of another: what a design with other drivers or units does not have is missing."""
+    if table.heads == other.heads:
+        return table
+    own = {column.head: column.values for column in table.columns}
+    nothing = np.full(len(table), np.nan)
+    return replace(other, columns=tuple(replace(c, values=own.get(c.head, nothing)) for c in other.columns))
 
 
 def _followed(sweep: Sweep, number: int) -> FollowedDesign | tuple[str, Wording]:

@@ -18,7 +18,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.table import Table
 from tests.mechanisms import redriven
-from tests.scenes import four_bar
+from tests.scenes import four_bar, slider_crank
 from tests.solver.test_forces import loaded
 
 NAME = "slider-crank-s50-e16-K1.2"
@@ -318,3 +318,31 @@ def test_where_no_link_turns_fully_the_flywheel_is_named_once():
 def test_a_train_that_closes_after_several_turns_says_so():
     train = graphkin.read("geared-five-bar").replace("gears.g.teeth", [20, 30])
     assert "turns fully; the motion repeats after 3 turns of the driver" in graphkin.sweep(train).text
+
+
+def loaded_slider(rod: float) -> dict[str, object]:
+    """A slider 40 beside its crank of 100, loaded on a part of its stroke: it takes a rod of 140 to turn fully."""
+    driver = {"link": "1", "angle": 10, "omega": 5}
+    scene = slider_crank(100, rod, driver=driver, masses={"3": {"at": "C", "mass": 2}})
+    scene["frame"]["guides"]["h"]["through"] = [0, -40]
+    part = {"stroke": "3/0", "sense": 1, "from": 0.1, "to": 0.9}
+    return scene | {"loads": {"P": {"on": "3", "at": "C", "force": 100, "against": "3/0", "when": part}}}
+
+
+@pytest.mark.parametrize("own", [80, 200])
+@pytest.mark.parametrize(("find", "status"), [(None, "ok"), (["v_C", "F_1/2"], "no whole turn")])
+def test_designs_without_the_stroke_of_a_load_have_their_motion_beside_those_that_have_forces(
+    own: float, find: list[str] | None, status: str, tmp_path: Path
+) -> None:
+    designs = {"links.2.length": [80, 200]}
+    swept = graphkin.sweep(loaded_slider(own), designs=designs, positions=4, find=find, out=tmp_path)
+    assert (4, 4) == (np.isnan(swept["F_1/2"][0]).sum(), np.isfinite(swept["F_1/2"][1]).sum())
+    assert [True, False, True, True] == np.isfinite(swept["v_C"][0]).tolist()
+    assert [status, "ok"] == swept.table["status"][[0, 4]].tolist()
+    assert swept.table["why"][0].startswith("loads.P.when.stroke: belongs to a whole turn, which")
+
+
+def test_a_design_with_another_driver_has_nothing_in_the_column_of_the_scene_s_own() -> None:
+    swept = graphkin.sweep(four_bar(150, 500, 300, 400), designs={"driver.link": ["1", "3"]}, positions=2)
+    assert [60, 240] == pytest.approx(swept["driver_1"][0])
+    assert np.isnan(swept["driver_1"][1]).all() and np.isfinite(swept["omega_2"][:, 0]).all()
