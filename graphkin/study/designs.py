@@ -26,7 +26,7 @@ from graphkin.scene.model import Dimension, Mechanism, changed_beside, dimension
 from graphkin.scene.scene import put
 from graphkin.scene.tables import path_of_key, value_at
 from graphkin.solver.algebra.pose import turned
-from graphkin.table import table_of
+from graphkin.table import table_of, with_points
 from graphkin.words import Phrase
 
 Value = float | str
@@ -151,6 +151,8 @@ def _value(text: str) -> Value:
     text = text.strip()
     if not text:
         raise ValueError(Phrase("a value is empty"))
+    if text[0] == text[-1] == '"' and len(text) > 1:  # a text that is a number, as in the file
+        return text[1:-1]
     try:
         return _finite(float(text))
     except ValueError:
@@ -167,7 +169,7 @@ def _finite(value: float) -> float:
 
 def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[tuple[Value, ...], ...]]:
     """Keys and rows of a CSV file of designs.  Raises CallError, naming the row."""
-    shown, table = path_of(path), table_of(path, MOST_BYTES)
+    shown, table = path_of(path), with_points(table_of(path, MOST_BYTES))
     if len(table.rows) > MOST_ROWS:
         raise CallError.of(str(shown), "holds more than designs", most=MOST_ROWS)
     keys = table.heads

@@ -29,6 +29,12 @@ def test_a_list_is_taken_as_it_is() -> None:
     assert [(40.0,), (55.0,), (60.0,)] == [designs[k] for k in range(len(designs))]
 
 
+def test_a_text_that_is_a_number_stands_in_quotation_marks(tmp_path: Path) -> None:
+    assert (1.0, "3") == designs_of({"driver.link": '1, "3"'}).grid[0]
+    (tmp_path / "d.csv").write_text('driver.link\n"""3"""\n')
+    assert (("3",),) == read_designs(tmp_path / "d.csv")[1]
+
+
 def test_several_keys_give_every_combination_the_last_one_fastest() -> None:
     designs = designs_of({"a": "1,2", "b": [3.0, 4.0]})
     assert [(1.0, 3.0), (1.0, 4.0), (2.0, 3.0), (2.0, 4.0)] == [designs[k] for k in range(len(designs))]
@@ -95,8 +101,8 @@ def test_every_wrong_key_is_named(key: str, said: str) -> None:
 
 
 def test_designs_are_read_as_spreadsheets_write_them(tmp_path: Path) -> None:
-    (tmp_path / "d.csv").write_bytes("links.1.length;title\n40;四杆\n50;四杆\n".encode("gb18030"))
-    assert (("links.1.length", "title"), ((40.0, "四杆"), (50.0, "四杆"))) == read_designs(tmp_path / "d.csv")
+    (tmp_path / "d.csv").write_bytes("links.1.length;title\n40,5;四杆\n50;四杆\n".encode("gb18030"))
+    assert (("links.1.length", "title"), ((40.5, "四杆"), (50.0, "四杆"))) == read_designs(tmp_path / "d.csv")
 
 
 def test_a_key_that_stands_twice_is_told_at_the_first_row_in_any_language(tmp_path: Path) -> None:
