@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,13 +17,14 @@ from graphkin.files import Json
 from graphkin.scene.drivers import time_span
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.search import extrapolated
+from graphkin.search import changes, extrapolated
 from graphkin.solver import Motion, over_time
 from graphkin.structure import Structure
 from graphkin.study.charts import Axis, Panel, chart_page, figure_name, number, panel_of
-from graphkin.study.extremes import Extreme
+from graphkin.study.extremes import GROWS, Extreme
 from graphkin.study.quantities import course_of, link_quantities, slide_quantities
 from graphkin.study.turn import output_links, output_slides
+from graphkin.study.turn_data import known
 from graphkin.words import Phrase, rich_text, say, word
 from graphkin.words.symbols import RichText
 
@@ -29,6 +32,13 @@ Array = NDArray[np.float64]
 POINTS = 361
 BEFORE = 1e-9
 """Of the whole time: so long before a seam the piece before it is looked at."""
+BESIDE = np.array([-1e-6, 1e-6, -1e-8, 1e-8])
+"""Of the whole time: so long beside where the motion ends or begins within it a rate is seen to grow without bound."""
+
+
+class _Sampled(NamedTuple):
+    at: Array
+    motion: Motion
 
 
 @dataclass(frozen=True)
@@ -43,9 +53,20 @@ class TimeAxis(Axis):
 
     @cached_property
     def times(self) -> Array:
-        """Moments that show the motion: even ones, seams of laws, and just before them."""
+        """Moments that show the motion: even ones, seams of laws and just before them, and where it ends or begins."""
+        return np.unique(np.concatenate([self._sampled.at, self.stops]))
+
+    @cached_property
+    def _sampled(self) -> _Sampled:
         even = np.linspace(*self.ends, POINTS)
-        return np.unique(np.concatenate([even, self._seams, self._seams - self._before]))
+        at = np.unique(np.concatenate([even, self._seams, self._seams - self._before]))
+        return _Sampled(at, over_time(self.structure, at, extended=False))
+
+    @cached_property
+    def stops(self) -> list[float]:
+        """The moments within the time at which the motion ends or begins."""
+        at, motion = self._sampled
+        return changes(lambda t: (motion if t is at else over_time(self.structure, t, extended=False)).ok, at)
 
     @cached_property
     def _seams(self) -> Array:
@@ -62,7 +83,7 @@ class TimeAxis(Axis):
 
     @cached_property
     def motion(self) -> Motion:
-        return over_time(self.structure, self.times, extended=False)
+        return over_time(self.structure, self.times, extended=False) if self.stops else self._sampled.motion
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -84,9 +105,15 @@ class TimeAxis(Axis):
         return np.asarray(course_of(quantity, None, self.motion), dtype=float)
 
     def extremes(self, quantity: Symbol, places: Array, values: Array) -> tuple[Extreme, Extreme]:
-        """As of every axis; just before a seam of laws at the seam itself, with the value to which the piece comes."""
-        top, bottom = super().extremes(quantity, places, values)
-        return self._at_seam(quantity, top), self._at_seam(quantity, bottom)
+        """As of every axis; just before a seam of laws at the seam itself, with the value to which the piece comes;
+        infinite where a rate grows without bound, towards where the motion ends or begins within the time."""
+        found = {e.kind: self._at_seam(quantity, e) for e in super().extremes(quantity, places, values)}
+        for stop in () if quantity.is_position else self.stops:
+            far, near = self.values(quantity, stop + BESIDE * (self.ends[1] - self.ends[0])).reshape(2, 2)
+            for value in near[np.abs(near) > GROWS * np.abs(far)].tolist():
+                kind: Literal["max", "min"] = "max" if value > 0 else "min"
+                found[kind] = Extreme(kind, stop, stop, math.copysign(math.inf, value))
+        return found["max"], found["min"]
 
     def _at_seam(self, quantity: Symbol, extreme: Extreme) -> Extreme:
         steps = np.arange(1.0, 4.0)
@@ -133,8 +160,9 @@ class TimeStudy:
         axis, facts = self.axis, [self._fact(language)]
 
         def panel(quantity: Symbol) -> Panel:
-            shown = axis.shown(quantity, axis.times, axis.course(quantity))
-            return panel_of(axis, quantity, np.stack([axis.times, shown], axis=1), self.extremes[quantity])
+            shown, extremes = axis.shown(quantity, axis.times, axis.course(quantity)), self.extremes[quantity]
+            curve, away = np.stack([axis.times, shown], axis=1), any(math.isinf(e.value) for e in extremes)
+            return replace(panel_of(axis, quantity, curve, extremes, bounded=not away), unbounded=away)
 
         return {figure_name(quantities): chart_page(axis, [*map(panel, quantities)], facts, language, over="time")
                 for quantities in self.groups}  # fmt: skip
@@ -153,8 +181,10 @@ class TimeStudy:
             ends = []
             for e in extremes:
                 key = "least at time" if e.kind == "min" else "greatest at time"
-                value = unit.said(e.value)
-                ends.append(say(Phrase(key, quantity=value, time=number(e.offset)), language))
+                said = Phrase(key, quantity=unit.said(e.value), time=number(e.offset))
+                if math.isinf(e.value):
+                    said = Phrase("grows without bound at", place=f"{number(e.offset)} s")
+                ends.append(say(said, language))
             if extremes:
                 lines.append(f"  {quantity}{word('colon', language)}{word('list comma', language).join(ends)}")
         return lines
@@ -166,7 +196,8 @@ class TimeStudy:
         for quantity, extremes in self.extremes.items():
             ends, unit = {"min": "least", "max": "greatest"}, quantity.unit(scene.units, radians=True)
             outputs[str(quantity)] = {
-                ends[e.kind]: {"value": unit.of(e.value) + 0.0, "time": e.offset} for e in extremes
+                ends[e.kind]: {**known(unit.of(e.value) + 0.0, "grows without bound there"), "time": e.offset}
+                for e in extremes
             }
         return {"title": scene.question.title, "time": [*self.axis.ends], "outputs": outputs}
 

@@ -109,13 +109,13 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
     return {"forces": {
         name: {"unit": quantity.unit(turn.scene.units).text, "extremes": [
             {"kind": e.kind, "driver": _driver(turn.scene, e.driver),
-             **_known(quantity.unit(turn.scene.units).of(e.value), "grows without bound there")}
+             **known(quantity.unit(turn.scene.units).of(e.value), "grows without bound there")}
             for e in extremes
         ]} for name, (quantity, extremes) in found.items()
     }}  # fmt: skip
 
 
-def _known(value: float, why: str) -> dict[str, float | str | None]:
+def known(value: float, why: str) -> dict[str, float | str | None]:
     """A value, or the reason why there is none."""
     return {"value": value} if math.isfinite(value) else {"value": None, "why": word(why, "en")}
 
@@ -129,7 +129,7 @@ def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Jso
     return {
         "kind": extreme.kind,
         "driver": _driver(turn.scene, extreme.driver),
-        **_known(value, "goes away" if math.isinf(extreme.value) else "not computed"),
+        **known(value, "goes away" if math.isinf(extreme.value) else "not computed"),
         **({"local": True} if extreme.local and math.isfinite(value) else {}),
     }
 

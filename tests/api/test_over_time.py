@@ -10,6 +10,7 @@ import graphkin
 from graphkin.account.given import given_drivers
 from graphkin.account.notation import notation_of
 from graphkin.errors import CallError, SceneError
+from tests.scenes import slider_crank
 
 CRANK = {
     "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -16], "angle": 0}}},
@@ -258,3 +259,17 @@ def test_an_extreme_just_before_a_seam_of_the_law_stands_at_the_seam_with_the_va
 
     assert 0.15 == pytest.approx(least["time"], abs=1e-16)
     assert float(mpmath.diff(place, 0, 2)) == pytest.approx(least["value"], rel=1e-12)
+
+
+def test_a_rate_grows_without_bound_where_a_law_leads_to_an_end_of_the_motion():
+    law = {"from": 10, "to": 100, "duration": 0.5, "by": "uniform"}
+    scene = slider_crank(100, 100, driver={"link": "1", "time": 0.1, "law": law})
+    scene["frame"]["guides"]["h"]["through"] = [0, -40]  # crank and rod end upright at asin(60/100)
+    end = math.asin(0.6), 0.5 * (math.degrees(math.asin(0.6)) - 10) / 90
+    swept = graphkin.sweep(scene, positions=4)
+    outputs = swept.data["outputs"]
+    assert end == pytest.approx(tuple(outputs["theta_1"]["greatest"].values()), rel=1e-9)
+    assert (80, end[1]) == pytest.approx(tuple(outputs["s_3/0"]["least"].values()), rel=1e-6)
+    nothing = {"value": None, "why": "it grows without bound there", "time": pytest.approx(end[1], rel=1e-9)}
+    assert [nothing, nothing] == [outputs[rate]["least"] for rate in ("v_3/0", "a_3/0")]
+    assert "v_3/0: grows without bound at 0.14928 s, greatest" in swept.text
