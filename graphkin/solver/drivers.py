@@ -19,8 +19,6 @@ from graphkin.solver.algebra.pose import GIVEN, Array, turned
 
 NEAR = 1e-14
 HALF_PI = math.pi / 2
-FULL = 7.0
-"""In a longer range of angles (rad) quarter turns are sought among the values."""
 MANY = 2000
 """From so many even steps on cosines are products."""
 
@@ -94,11 +92,9 @@ class UniformGrid:
         roundings more."""
         n = len(self)
         begin, end = self.start + self.step * self.first, self.start + self.step * (self.last - 1)
-        if n < MANY or abs(end - begin) > FULL:
+        if n < MANY:
             values = self.values
             c, s = np.cos(values), np.sin(values)
-            if abs(end - begin) > FULL:
-                return GivenValues(values).turn
         else:
             fine = 1 << (n.bit_length() + 1) // 2
             coarse, inner = begin + self.step * np.arange(0, n, fine), self.step * np.arange(fine)

@@ -59,7 +59,7 @@ def diagrams(
         made: dict[str, ChartPage | Drawing] = {}
         for quantity in asked:
             if quantity.is_load:
-                made |= _force_pages(turn, quantity, language)
+                made |= _force_pages(turn, axis, quantity, language)
             else:
                 others = over.get(quantity, ())
                 panel = charts.motion_panel(turn, axis, quantity, (), others)
@@ -85,11 +85,13 @@ def diagrams(
     return pages | _balance_pages(turn, language)
 
 
-def _force_pages(turn: TurnStudy, quantity: Symbol, language: str) -> dict[str, ChartPage | Drawing]:
-    """A force or a moment over the driver; of a force the polar diagram too."""
+def _force_pages(
+    turn: TurnStudy, axis: charts.DriverAxis, quantity: Symbol, language: str
+) -> dict[str, ChartPage | Drawing]:
+    """A force or a moment over the driver; of a force that is known somewhere the polar diagram too."""
     name = charts.figure_name([quantity])
     pages: dict[str, ChartPage | Drawing] = {name: force_page(turn.reach, quantity, language)}
-    if quantity.is_vector:
+    if quantity.is_vector and np.isfinite(course_of(quantity, turn.reach, axis.motion)).any():
         pages[name.replace("diagram", "polar", 1)] = polar_page(turn.reach, quantity, language)
     return pages
 

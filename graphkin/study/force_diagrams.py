@@ -90,8 +90,6 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Symbol, tuple[Extreme,
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
     quantities = [force for force in forces_named(reach.scene) if force.kind in ("F", "M")]
-    if not quantities:
-        return {}
     axis = charts.DriverAxis(reach)
     offsets = whole_turn(axis)
     motion = reach.motion(offsets)

@@ -13,7 +13,7 @@ from graphkin.scene.model import Mechanism, forces_named
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange, Motion, listed_points, own_slides
 from graphkin.solver.algebra.pose import Array
-from graphkin.solver.forces import ends_of, forces_of, settled_value, value_of
+from graphkin.solver.forces import ends_of, settled_value, value_of
 from graphkin.solver.quantities import all_slides
 from graphkin.solver.values import of_cycle
 from graphkin.structure import Structure, links_for
@@ -85,8 +85,6 @@ def of_extrapolated(quantity: Symbol, value: float) -> float:
 
 def _bound(quantity: Symbol, motion: Motion) -> Array:
     """The bound of a quantity's rounding error, by the links whose errors it has; 0 where it is unknown."""
-    if quantity.is_load:
-        return np.nan_to_num(forces_of(motion).bound[quantity.measure.length])
     # none of a quantity of further links, as a transmission angle
     moves = quantity.scope == "motion" or quantity.is_of_output
     bound = motion.accuracy.of(links_for(motion.structure, quantity) if moves else ()).of(quantity.measure)

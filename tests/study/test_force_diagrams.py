@@ -18,6 +18,7 @@ from graphkin.solver import driver_range
 from graphkin.solver.values import flywheel_of, load_edges, needed_moment
 from graphkin.study.charts import DriverAxis
 from graphkin.study.force_diagrams import force_panel, whole_turn
+from tests.scenes import slider_crank
 
 FORCES = Path(__file__).parent.parent / "validation" / "forces"
 SHAPER, ENGINE = FORCES / "shaper-scheme-2.toml", FORCES / "engine.toml"
@@ -244,3 +245,9 @@ def test_slowest_and_fastest_stand_within_a_turn(speed):
     scene["driver"] = {"link": "2", "angle": 30, "omega": speed}
     found = graphkin.sweep(scene, positions=4).data["flywheel"]
     assert [25.1320, 161.1270] == pytest.approx([math.degrees(found[k]) for k in ("slowest", "fastest")], abs=1e-4)
+
+
+def test_a_force_that_is_known_nowhere_has_no_polar_diagram():
+    balance = {"on": "3", "at": "C", "angle": 90}  # square to the guide it does no work
+    scene = slider_crank(50, 120, masses={"3": {"at": "C", "mass": 2}}, balance=balance)
+    assert ["diagram-F_1-2"] == [*graphkin.sweep(scene, positions=3, find=["F_1/2"]).figures]
