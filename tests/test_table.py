@@ -178,5 +178,5 @@ def test_zero_has_no_sign_in_csv_and_json(form, cells):
 
 def test_a_picture_is_no_table_without_rows(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(b"\x89PNG\r\n\x1a\n\x00\xff")
-    with pytest.raises(CallError, match="a.csv: is not UTF-8 text; save it as CSV"):
+    with pytest.raises(CallError, match=r"a\.csv: is not UTF-8 text; save it as CSV"):
         table_of(tmp_path / "a.csv")
