@@ -49,6 +49,15 @@ def test_a_flywheel_carries_over_what_the_driving_moment_lacks(load, speed):
     assert 0 == pytest.approx(sum(found.areas.values()), abs=1e-9)
 
 
+def test_a_flywheel_is_told_in_the_units_of_the_scene():
+    scene = crank(-0.1) | {"units": {"force": "kN", "mass": "g"}}
+    told = graphkin.sweep(scene, positions=4).data["flywheel"]
+    energies = [0.025 * math.tau, 0.0375 * math.pi, *(0.025 * math.radians(x) for x in (15, -3 * 90, 255))]
+    assert energies == pytest.approx([told["work"], told["excess_W"], *(area["work"] for area in told["areas"])])
+    assert (0.025, 0.0375 * math.pi / (0.1 * 400) * 1e6) == pytest.approx((told["driving_moment"], told["J_F"]))
+    assert [30, 45, 135] == pytest.approx([math.degrees(area["from"]) for area in told["areas"]])
+
+
 def test_the_work_of_a_cycle_is_that_of_the_loads():
     scene = graphkin.read(SHAPER).to_dict() | {"flywheel": {"on": "2", "delta": 0.1}}
     found = flywheel_of(reach_of(scene))
