@@ -219,6 +219,25 @@ def test_what_a_slide_drives_that_is_followed_no_further_has_no_limit_positions(
     assert (None, "nowhere limited", ()) == (output.stroke, output.without, output.position.extremes)
 
 
+def test_a_range_that_ends_at_one_side_only_has_one_limit_position() -> None:
+    # a guide 20 beside its pivot in the frame, on a driven pin
+    scene = {
+        "frame": {"points": {"D": [0, 0]}},
+        "links": {
+            "1": {"points": ["C"], "on": "0"},
+            "2": {"points": ["C"], "on": "3.s"},
+            "3": {"points": ["D"], "guides": {"s": {"through": [0, 20], "angle": 0}}},
+        },
+        "driver": {"slide": "1", "travel": 100, "velocity": 5},
+    }
+    told = graphkin.sweep(scene, positions=2).data
+    own, other = ((stretch["low"], stretch["high"]) for stretch in told["ranges"])
+    assert ((pytest.approx(20), None), (None, pytest.approx(-20))) == (own, other)
+    (output,) = told["outputs"]
+    assert "it has no two limit positions as far as its motion is followed" == output["why"]
+    assert [("end", pytest.approx(20))] == [(limit["kind"], limit["driver"]) for limit in output["limit_positions"]]
+
+
 def test_a_slide_that_comes_back_less_than_it_goes_has_no_stroke_and_goes_on() -> None:
     # a yoke on a point beyond the rim of a wheel that rolls on a rail
     rail = {"guides": {"rail": {"through": [0, 0], "angle": 0}, "x": {"through": [0, 90], "angle": 0}}}
