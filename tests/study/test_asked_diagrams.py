@@ -36,9 +36,13 @@ def test_the_least_transmission_angle_is_an_extreme_of_its_diagram() -> None:
 
 
 def test_an_extreme_of_a_range_that_ends_is_local_where_the_quantity_goes_beyond_it() -> None:
-    text = graphkin.sweep("sixbar-AE70", positions=12, find=["omega_2"]).text
-    assert "local maximum" in text
-    assert "; maximum" not in text
+    swept = graphkin.sweep("sixbar-AE70", positions=12, find=["omega_2"])
+    assert "local maximum" in swept.text
+    assert "; maximum" not in swept.text
+    ended, turning = (sweep.data["curves"]["omega_2"]["extremes"]
+                      for sweep in (swept, graphkin.sweep("fourbar-150-500-300-400", positions=2)))  # fmt: skip
+    assert {True} == {extreme["local"] for extreme in ended if extreme["kind"] == "max"}
+    assert [] == [extreme for extreme in turning if "local" in extreme]
 
 
 def words_of(page) -> str:
