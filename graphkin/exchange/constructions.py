@@ -2,8 +2,8 @@
 linkages of pylinkage.
 
 - A file of GeoGebra is a ZIP archive with ``geogebra.xml``: elements with their coordinates (homogeneous), commands
-  with inputs and outputs.  Free points are the frame, a point on a circle is a crank's end, crossings of circles and
-  lines are joints, segments join the points of a body.
+  with inputs and outputs.  Free points are the frame, a point on a circle is a crank's end, one on a fixed line is
+  pulled along it, crossings of circles and lines are joints, segments join the points of a body.
 - A linkage of pylinkage has joints that refer to earlier ones: Static, Crank (distance, angle a step), Fixed
   (distance and angle from one, against the line to another), Revolute or Pivot (two distances), Linear (a distance from
   one, on the line of two others).
@@ -33,7 +33,7 @@ from graphkin.words import Phrase, Wording, from_others
 STEP = math.tau / 360
 """rad: what a driver of pylinkage turns in a step, where nothing is said; a step is taken for a second."""
 INPUT_SPEED = 1.0
-"""rad/s: a construction of GeoGebra says no speed."""
+"""rad/s, or units of length a second: a construction of GeoGebra says no speed."""
 LARGEST = 20_000_000
 DAMAGED = (BadZipFile, LookupError, ElementTree.ParseError, OSError, ValueError, RuntimeError, EOFError, zlib.error)
 
@@ -45,7 +45,8 @@ class _Construction:
     moving : points that move
     bars : pairs of points at a constant distance
     slid : a point, the two points of its line, and the sentence for a line that no link has
-    driven : pivot and end of a crank, and its rate (rad/s)
+    driven : pivot and end of a crank, and its rate (rad/s); no pivot of a point that is pulled along a fixed line, and
+        its speed
     """
 
     made: Bodies
@@ -60,10 +61,13 @@ class _Construction:
         for bar in self._plates():
             if not set(bar) <= set(frame):
                 self.made.body("".join(self.made.names[p] for p in bar)[:20], bar)
-        for slide in self.slid:
-            self.made.slide_on(*slide)
+        for slid in self.slid:
+            self.made.slide_on(*slid)
         for pivot, end, rate in self.driven:
-            self.made.turn((pivot, end), rate)
+            if pivot:
+                self.made.turn((pivot, end), rate)
+            for slide in (s for s in self.made.slides if not pivot and s.point == self.made.names[end]):
+                self.made.drive(slide.body, rate, slide.point)
         return self.made
 
     def _plates(self) -> list[list[str]]:
@@ -117,6 +121,7 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
         given, got = (_arguments(command, tag) for tag in ("input", "output"))
         _follow(command.get("name", ""), given, got, made, circles, lines)
     used = {p for held in (*made.bars, *lines.values()) for p in held}
+    made.slid = [slide for slide in made.slid if slide[0] in used]
     points = made.made.names
     frame = [p for p in points if p not in made.moving and p in used]
     for label in [p for p in points if p not in used]:
@@ -135,6 +140,9 @@ def _follow(
     def slide(point: str, line: str) -> None:
         made.slid.append((point, lines[line], Phrase("lost point on line", name=point, line=line)))
 
+    def one_body(keys: Sequence[str]) -> bool:
+        return any({*keys} <= {*bar} for bar in (*made.bars, points.keys() - made.moving))
+
     if name == "Circle" and len(given) == 2 and given[0] in points:
         circles[out] = given[0]
     elif name in ("Segment", "Line", "Ray") and len(given) == 2 and set(given) <= set(points):
@@ -149,8 +157,13 @@ def _follow(
         made.bars.append([circles[given[0]], out])
         made.driven.append((circles[given[0]], out, INPUT_SPEED))
     elif name == "Point" and given and out in points and given[0] in lines:
+        ends = lines[given[0]]
+        if made.moving & {*ends} and one_body(ends):  # it keeps its place on a line that moves
+            made.bars.append([*ends, out])
+        else:
+            slide(out, given[0])
+            made.driven += [("", out, INPUT_SPEED)] if not made.moving & {*ends} else []
         made.moving.add(out)
-        slide(out, given[0])
     elif name == "Intersect" and len(given) > 1:
         for point in (p for p in got if p in points):
             made.moving.add(point)
@@ -161,7 +174,7 @@ def _follow(
                     slide(point, curve)
                 else:
                     made.made.lost.append(Phrase("lost curve", curve=curve, point=point))
-    elif name == "Midpoint" and any({*given} <= {*bar} for bar in (*made.bars, points.keys() - made.moving)):
+    elif name == "Midpoint" and one_body(given):
         made.bars.append([*given, out])
         made.moving |= {out} if made.moving & {*given} else set()
     elif name not in ("Slider", "Locus", "Distance", "Angle", "Length", "Text"):

@@ -6,6 +6,7 @@ import io
 import json
 import math
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -471,6 +472,16 @@ def test_a_pin_in_two_slots_is_not_written_with_the_first_of_them_alone(tmp_path
         convert(scene, out=tmp_path / f"a{ending}")
 
 
+def save(path: Path, places: dict[str, complex], commands: Sequence[tuple[str, str, str]]) -> None:
+    """Write a construction of GeoGebra: its points, and commands with what they are given and what they make."""
+    text = "".join(coordinates(*place) for place in places.items())
+    for name, *both in commands:
+        ends = (" ".join(f'a{k}="{x}"' for k, x in enumerate(some.split())) for some in both)
+        text += '<command name="{}"><input {}/><output {}/></command>'.format(name, *ends)
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("geogebra.xml", f"<geogebra><construction>{text}</construction></geogebra>")
+
+
 MOVED = [("Circle", "A 2", "c"), ("Point", "c", "B"), ("Circle", "B 4.5", "d"), ("Circle", "D 4.1", "e"),
          ("Intersect", "d e", "C")]  # fmt: skip
 
@@ -483,21 +494,29 @@ MOVED = [("Circle", "A 2", "c"), ("Point", "c", "B"), ("Circle", "B 4.5", "d"), 
         (("Midpoint", "B C", "E"), {"0": "AD", "AB": "AB", "BCE": "BCE", "DC": "DC"}),
         (("Midpoint", "A D", "E"), {"0": "ADE", "AB": "AB", "BC": "BC", "DC": "DC"}),
         (("Midpoint", "B D", "E"), {"0": "AD", "AB": "AB", "BC": "BC", "DC": "DC"}),
+        (("Point", "m", "E"), {"0": "AD", "AB": "AB", "BCE": "BCE", "DC": "DC"}),
     ],
 )
-def test_corners_and_midpoints_of_geogebra_are_points_of_the_body_that_holds_them(command, bodies, tmp_path: Path):
-    def lines(name: str, given: str, got: str) -> str:
-        ends = (" ".join(f'a{k}="{x}"' for k, x in enumerate(some.split())) for some in (given, got))
-        return '<command name="{}"><input {}/><output {}/></command>'.format(name, *ends)
-
+def test_corners_midpoints_and_points_on_segments_of_geogebra_are_points_of_the_body_that_holds_them(
+    command, bodies, tmp_path: Path
+):
     corner = "E" in command[1] and command[0] == "Polygon"
     made = [("Circle", "B 3", "u"), ("Circle", "C 3", "w"), ("Intersect", "u w", "E")] if corner else []
     places = {"A": 0j, "B": 1 + 2j, "C": 5 + 4j, "D": 6 + 0j, "E": 3 + 6j}
-    text = "".join(coordinates(*place) for place in places.items())
-    text += "".join(lines(*c) for c in (*MOVED, *made, command))
-    with zipfile.ZipFile(tmp_path / "a.ggb", "w") as archive:
-        archive.writestr("geogebra.xml", f"<geogebra><construction>{text}</construction></geogebra>")
+    save(tmp_path / "a.ggb", places, [*MOVED, ("Segment", "B C", "m"), *made, command])
     assert bodies == {name: "".join(points) for name, points in read_bodies(str(tmp_path / "a.ggb")).bodies.items()}
+
+
+def test_a_point_of_geogebra_that_is_pulled_along_a_fixed_line_drives(tmp_path: Path):
+    trammel = [("Segment", "A B", "f"), ("Line", "A D", "g"), ("Point", "f", "C"), ("Circle", "C 5", "c"),
+               ("Intersect", "g c", "E"), ("Segment", "C E", "h"), ("Point", "f", "F")]  # fmt: skip
+    save(tmp_path / "a.ggb", {"A": 0j, "B": 9, "D": 9j, "C": 4, "E": 3j, "F": 8}, trammel)
+    read = convert(tmp_path / "a.ggb")
+    assert ("point F (nothing holds it)",) == tuple(map(str, read.left))
+    assert {"slide": "C/0", "travel": 4, "velocity": 1} == read.scene.to_dict()["driver"]
+    # of a rod of 5 with C at 4 that goes at 1
+    moved = graphkin.solve(read.scene).data["positions"][0]["points"]["E@CE"]
+    assert ([0, -4 / 3], [0, -25 / 27]) == (pytest.approx(moved["velocity"]), pytest.approx(moved["acceleration"]))
 
 
 def test_a_static_joint_of_pylinkage_that_stands_alone_takes_no_other_joint_s_name(tmp_path: Path) -> None:
