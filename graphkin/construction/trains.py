@@ -85,17 +85,20 @@ class CentreLine:
         return next(s for s in self.spots if s.name == name)
 
 
-def trains(meshes: Sequence[PlacedGear], ground: str) -> tuple[tuple[PlacedGear, ...], ...]:
-    """Rolling pairs connected by moving links."""
+def trains(
+    meshes: Sequence[PlacedGear], ground: str, turns: Sequence[Turned] = ()
+) -> tuple[tuple[PlacedGear, ...], ...]:
+    """Rolling pairs connected by moving links, also by links that turn from one another at given rates."""
     groups: list[tuple[set[str], list[PlacedGear]]] = []
-    for mesh in meshes:
-        links, members = set(mesh.members) - {ground}, [mesh]
+    tied = [({first, second}, list[PlacedGear]()) for first, second, _ in turns]
+    for links, members in (*tied, *(({*mesh.members}, [mesh]) for mesh in meshes)):
+        links -= {ground}
         for other in [g for g in groups if g[0] & links]:
             groups.remove(other)
             links |= other[0]
             members = other[1] + members
         groups.append((links, members))
-    return tuple(tuple(members) for _, members in groups)
+    return tuple(tuple(members) for _, members in groups if members)
 
 
 def centre_lines(train: Iterable[PlacedGear], links: Mapping[str, PlacedLink], ground: str) -> tuple[CentreLine, ...]:
@@ -186,6 +189,7 @@ class TrainPlan:
         height upwards), and reads its rate or lays it off, by line of centres and link
     velocities : of places (mm), by line of centres and place
     travels : the step that reads the speed of a rack (m/s, m/s2), by sliding pair
+    followed : the links of the turns by which a rate was found
     gaps : the differences at places found twice (mm)
     trial : the assumed rates, found by proportion
     """
@@ -201,6 +205,7 @@ class TrainPlan:
     lines: dict[tuple[int, str], RateStep] = field(default_factory=dict)
     velocities: dict[tuple[int, str], float] = field(default_factory=dict)
     travels: dict[str, RateStep] = field(default_factory=dict)
+    followed: set[tuple[str, str]] = field(default_factory=set)
     gaps: list[float] = field(default_factory=list)
     trial: Superposed | None = None
 
@@ -231,14 +236,14 @@ class TrainPlan:
     def drawn(self, hand: Instrument, assumed: Mapping[str, float]) -> TrainPlan:
         """This undrawn plan with all its lines, with rates assumed in turn."""
         still = {(i, line.still): 0.0 for i, line in enumerate(self.on)}
-        plan = replace(self, rates=dict(self.rates), lines={}, velocities=still, travels={}, gaps=[])
+        plan = replace(self, rates=dict(self.rates), lines={}, velocities=still, travels={}, followed=set(), gaps=[])
         plan._go_on(hand)
         for link, rate in assumed.items():
             plan.rates[link] = rate
             plan._go_on(hand)
         # what two links that slide on each other or that a driver turns leave open, on the rate scale
-        plan.gaps += [(plan.rates[a] - plan.rates[b] - value) / self.turning
-                      for a, b, value in self.turns if a in plan.rates and b in plan.rates]  # fmt: skip
+        plan.gaps += [(plan.rates[a] - plan.rates[b] - value) / self.turning for a, b, value in self.turns
+                      if a in plan.rates and b in plan.rates and (a, b) not in plan.followed]  # fmt: skip
         return plan
 
     def _go_on(self, hand: Instrument) -> None:
@@ -250,6 +255,7 @@ class TrainPlan:
                 for link, known, rate in ((first, second, value), (second, first, -value)):
                     if known in self.rates and link not in self.rates:
                         self.rates[link] = self.rates[known] + rate
+                        self.followed.add((first, second))
                         grown = True
             for i, line in enumerate(self.on):
                 for mesh in line.meshes:
@@ -414,7 +420,9 @@ def rolled(
     """
     scene, links, (kind, name) = structure.scene, structure.links, wanted
     alike = structure.turning_with(name) if kind == "angle" else {name}
-    for train in trains(meshes_of(scene, structure.touching, links), scene.frame.name):
+    meshes, ground = meshes_of(scene, structure.touching, links), scene.frame.name
+    # where a driver turns a link from one of another train, one may need the other
+    for train in dict.fromkeys((*trains(meshes, ground), *trains(meshes, ground, turns))):
         on = centre_lines(train, links, scene.frame.name)
         slides = [mesh.slide for mesh in train if mesh.slide]
         members = {n for line in on for n in line.links} if kind == "angle" else slides
