@@ -157,8 +157,6 @@ def _pivot_on_circle(
     """The crank's pivot, at the crossing of the frame's arc about D and the circle over C1C2."""
     middle, radius = locus
     reach = paper.instrument.compass(paper.mm(task.frame))
-    if abs(middle - D) < 1e-9 * radius:
-        raise not_drawn("A", "the circle over c1c2 is one about d", "another k or swing")
     met = cross_arcs(D, reach, middle, radius)
     if met is None:
         raise not_drawn("A", "the arc about d does not reach the", "another frame")

@@ -29,6 +29,7 @@ from graphkin.search import last_true, least_value
 from graphkin.words import Phrase, Wording
 
 IN_LINE = 1e-12  # of the size: three points whose circle is larger than this allows lie in one line
+ABOUT_D = 1e-6  # of the rocker: a circle over C1C2 that leaves less room for A is that about D
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,7 @@ def _(task: CrankRockerTask) -> Synthesis:
     widest = math.pi / 2 + psi / 2
     theta = _lag(task.K, (math.pi + widest) / (math.pi - widest))
     low, high = sorted((c, c * abs(math.sin(psi - theta)) / math.sin(theta) if theta else math.inf))
-    if high - low <= 1e-9 * c:
+    if high - low <= ABOUT_D * c:
         said = Phrase("is twice 180 k 1 k 1 the", swing=f'{task.swing:.6g}')
         raise _refused("swing", said, Phrase("another swing or another k"))
     if not theta and d <= c:

@@ -156,6 +156,8 @@ def test_fixed_pivots_given_the_moving_ones_are_carried_by_the_bar():
         ({**SLIDER, "offset": 0}, "an offset greater than 0"),
         ({**ROCKER, "frame": 500}, r"between [\d.]+ and [\d.]+"),
         ({**ROCKER, "swing": 180}, "below 180"),
+        # where A has no room a drawing of four digits less had been no drawing of it
+        ({**ROCKER, "swing": 40.000001, "K": 1.25, "frame": 50.00000001}, "is twice"),
         ({**BAR, "rod": 1}, r"it must exceed [\d.]+"),
         ({**LIMITS, "A": [100, 20]}, "two pivots apart"),
         ({**LIMITS, "A": [99, -80]}, "to one side"),

@@ -170,8 +170,6 @@ def asked_words(design: Design, language: str) -> RichText:
                 parts.append(sign("B", str(k)) + f" {_at(place.B)}, " + lies)
         elif isinstance(value, complex):
             parts.append(f"{key} {_at(value)}")
-    if not parts:
-        return RichText(term("design figure", language))
     last = languages(language)[-1] if len(languages(language)) == 1 else "en"
     mark = word("list semicolon" if getattr(task, "positions", None) else "list comma", last)
     return term("given wish", language) + word("colon", last) + spaced(mark, parts)
@@ -262,8 +260,6 @@ def _tables(
           printed(product(on_paper(length.on_paper), per)), number(length.exact)] for length in rows],
         (26.0, 24.0, 28.0, 28.0), layer="answers",
     )  # fmt: skip
-    if not confirmed:
-        return lengths
     turned = table(
         [[word(key, each) for key in ("confirmed", "given wish", "by the turn")] for each in every],
         [[" ".join(dict.fromkeys(say(value.what, each) for each in every)), value.shown(value.asked),
