@@ -103,7 +103,7 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
             leaning_rate = turn / size**2 + 1.0 - course.turning
             along = 3.0 * size * dot(tangent, tangent_rate)
             radius_rate = (size**3 * cross(tangent, course.jerk) - along * turn) / turn**2
-    leaning = np.angle(normal * np.conj(way))
+    leaning = 0.0 * s1 if cam.flat else np.angle(normal * np.conj(way))
     columns = (s0, lift.slope, u, point, normal, contact, way, radius, leaning, leaning_rate, radius_rate)
     return CamAt(*map(np.asarray, columns))
 

@@ -17,6 +17,9 @@ import graphkin
 from graphkin.checking.closed_form import compare_cam
 from graphkin.construction import cam_sheet as cam_module
 from graphkin.construction.cam_sheet import cam_sheet
+from graphkin.drawing.box import Box
+from graphkin.drawing.ink.primitives import Line, Text, walk
+from graphkin.drawing.text import text_box
 from graphkin.errors import CallError, Disagreement
 from graphkin.scene import mechanism_of
 from graphkin.solver.cams import cam_at, cam_with, study_cam
@@ -394,3 +397,20 @@ def test_degrees_of_a_law_are_those_of_the_file():
     data = graphkin.cam(scene).data["cams"]["1"]
     assert [0, 110, 120, 170, 220] == [jump["degree"] for jump in data["jumps"]]
     assert {0, 110, 120, 170, 220} <= {division["degree"] for division in data["divisions"]}
+
+
+def test_the_angle_of_a_piece_that_is_too_narrow_for_it_stands_below_the_marks_of_its_ends():
+    law = [{"to": 100.123, "rise": 20, "by": "345"}, {"to": 112.456}, {"to": 124.789, "fall": 5, "by": "345"},
+           {"to": 300, "fall": 15, "by": "345"}, {"to": 360}]  # fmt: skip
+    things = list(walk(graphkin.cam(graphkin.read("cam-flat-face").replace("cams.1.law", law)).figures["cam"].children))
+    angles = [text_box(t) for t in things if isinstance(t, Text) and "cell" in t.classes
+              and re.match(r"[\d.]+°", "".join(run.text for run in t.runs))]  # fmt: skip
+    marks = [Box.around((line.start, line.end)) for line in things if isinstance(line, Line)
+             and (line.end - line.start) == pytest.approx(2.8j)]  # fmt: skip
+    assert (4, 10) == (len(angles), len(marks))
+    assert not [1 for angle in angles for other in (*angles, *marks) if angle is not other and angle.overlaps(other)]
+
+
+def test_a_flat_face_square_to_a_slanting_line_has_no_pressure_angle():
+    slanting = graphkin.read("cam-flat-face").replace("frame.guides.g.angle", 10.2)
+    assert {"value": 0.0, "degree": 0.0} == graphkin.cam(slanting).data["cams"]["1"]["pressure"]["rise"]

@@ -456,7 +456,7 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
                               Line(origin, top - 5.0j, strokes.DIMENSION)]  # fmt: skip
     labels: list[Primitive] = []
     divided = [] if begun else [(d.degree, d.lift, str(k)) for k, d in enumerate(divisions(sheet))]
-    free = 0.0  # of numbers, from here on
+    free = below = 0.0  # of numbers, and of angles too wide for their pieces, from here on
     for degree, lift, name in (*divided, *((TURN, lift, "") for _, lift, _ in divided[:1])):
         foot, written = at(degree, law.least), plain(name, SMALL)
         drawn.append(Line(foot, at(degree, lift), strokes.CONSTRUCTION))
@@ -467,9 +467,13 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
     for piece in law.pieces:
         start, end = at(piece.start, law.least) + 6.8j, at(piece.end, law.least) + 6.8j
         short = f"{number(math.degrees(piece.end - piece.start))}°"
-        text = rich(f"{short} {_law(piece.by, language)}", SMALL)
-        fits = runs_width(text) <= (end - start).real - 2.0
-        cell((start + end) / 2 + 1.0j, text if fits else rich(short, SMALL))
+        whole, bare = (rich(words, SMALL) for words in (f"{short} {_law(piece.by, language)}", short))
+        room, middle, half = (end - start).real - 2.0, (start + end) / 2, runs_width(bare) / 2 + NUMBERS_APART
+        if runs_width(bare) <= room:
+            cell(middle + 1.0j, whole if runs_width(whole) <= room else bare)
+        elif middle.real - half >= below:
+            cell(middle + 3.4j, bare)
+            below = middle.real + half
         drawn += [Line(z - 1.4j, z + 1.4j, strokes.CONSTRUCTION) for z in (start, end)]
     unit = _unit(scene, cam)
     h, s = (sign("ψ" if unit == "°" else letter) for letter in "hs")
