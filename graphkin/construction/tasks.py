@@ -67,8 +67,10 @@ class TaskStep(PlaceStep):
             base, per, *ends = (round(mm, decimals) for mm in self.radii)
             if all(on_paper(abs(base * per / end)) == text for end, text in zip(ends, written, strict=True) if end):
                 break
-        figures = (*(f"{end:.{decimals}f}" for end in (*ends, per)), *written)
-        return dict(zip(("across", "upward", "unit", "crank", "rocker"), figures, strict=True))
+        sizes, names = [f"{abs(end):.{decimals}f}" for end in ends], ("across", "upward")
+        signed = (f"−{size}" if end < 0.0 else size for size, end in zip(sizes, ends, strict=True))
+        return {**dict(zip(names, signed, strict=True)), **{f"{n}.size": z for n, z in zip(names, sizes, strict=True)},
+                "unit": f"{per:.{decimals}f}", **dict(zip(("crank", "rocker"), written, strict=True))}  # fmt: skip
 
 
 def length_letters(name: str) -> Words:

@@ -288,14 +288,25 @@ def test_measured_lengths_on_the_figure_are_what_the_paper_and_the_scale_come_to
         assert f"|{float(read) * made.sheet.scales.length:.6g}|" in told
 
 
-@pytest.mark.parametrize("pairs", [PAIRS["pairs"], [[40, 30], [70, 50], [110, 80]], [[60, 25], [80, 45], [130, 120]]])
+TURNED = [[30, 45], [70, 75], [130, 95]]
+"""Pairs that no bars but opposite ones meet."""
+
+
+@pytest.mark.parametrize(
+    "pairs", [PAIRS["pairs"], [[40, 30], [70, 50], [110, 80]], [[60, 25], [80, 45], [130, 120]], TURNED]
+)
 def test_quotients_of_the_diagram_of_reciprocals_are_true_as_written(pairs):
     made = graphkin.design({"design": {**PAIRS, "pairs": pairs}})
     said = " ".join(say(step.phrase) for step in made.sheet.steps)
     base = re.search(r"draw AD, ([\d.]+) mm", said)[1]
-    sums = re.findall(r"AD·([\d.]+)/(-?[\d.]+) = ([\d.]+) mm", said)
+    sums = re.findall(r"AD·([\d.]+)/([\d.]+) = ([\d.]+) mm", said)
     assert 2 == len(sums)
-    assert [length for _, _, length in sums] == [f"{abs(float(base) * float(a) / float(b)):.2f}" for a, b, _ in sums]
+    assert [length for _, _, length in sums] == [f"{float(base) * float(a) / float(b):.2f}" for a, b, _ in sums]
+
+
+def test_the_coordinates_of_a_crossing_on_the_negative_side_have_the_minus_of_print():
+    said = " ".join(say(step.phrase) for step in found({**PAIRS, "pairs": TURNED}).sheet.steps)
+    assert re.search(r"Q lies −[\d.]+ mm across and −[\d.]+ mm up", said)
 
 
 def test_what_a_turn_confirms_is_named_in_both_languages():
