@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import symbols as arrows
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Text
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Text
 from graphkin.drawing.ink.strokes import DIRECTION, LINK
 from graphkin.drawing.ink.symbols import turning_pair, vector_group
 from graphkin.drawing.place.labels import Label
@@ -169,6 +169,12 @@ def test_a_block_leaves_no_room_inside():
 
 def test_a_circle_is_an_area():
     assert obstacles_of((Circle(5 + 5j, 1.0, "#000000"),)).areas == (Box(4.0, 4.0, 6.0, 6.0),)
+
+
+@pytest.mark.parametrize("radius", [8.0, 100.0, 432.0])
+def test_an_arc_is_an_obstacle_where_it_lies_however_large_it_is(radius):
+    chords = obstacles_of((Arc(0j, radius, 1.0, 2.0, LINK),)).solid
+    assert pytest.approx(radius, abs=0.5) == min(abs(a + b) / 2 for a, b in chords)
 
 
 def test_dashed_lines_may_be_crossed_where_nothing_else_is_free():

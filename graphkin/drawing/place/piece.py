@@ -181,7 +181,7 @@ def _moved_mark(mark: Mark, by: complex) -> Mark:
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
 SMALL, TINY = 12.0, 3.2
 THICK = 0.3  # mm: lines as wide as this are vectors and links
-_ARC_STEP = math.radians(12)
+_ARC_STEP, _SAGITTA = math.radians(12), 0.5  # of a chord that is taken for a part of an arc: its angle, its height (mm)
 
 
 def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
@@ -229,7 +229,8 @@ def _corners(thing: Polyline | Polygon | Arc) -> tuple[complex, ...]:
         return thing.points
     if isinstance(thing, Polygon):
         return *thing.points, thing.points[0]
-    steps = max(1, math.ceil(abs(thing.end - thing.start) / _ARC_STEP))
+    turn = min(_ARC_STEP, 2 * math.sqrt(2 * _SAGITTA / max(thing.radius, 1.0)))
+    steps = max(1, math.ceil(abs(thing.end - thing.start) / turn))
     return tuple(thing.at(thing.start + (thing.end - thing.start) * i / steps) for i in range(steps + 1))
 
 
