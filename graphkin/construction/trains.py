@@ -289,8 +289,9 @@ class TrainPlan:
             foot = hand.read_signed(-along.real / along.imag * self.pole)
             rate = self.rates[link] = foot * self.turning
         reach = [s.height * mm for s in spots]
-        if len(reach) == 1:
-            reach += [0.0] if reach[0] else [0.25 * HIGH]
+        if len(reach) == 1:  # towards the other places of the train
+            far = max((s.height * mm for s in self.on[i].spots), key=abs)
+            reach += [0.0] if reach[0] else [far * min(1.0, 0.25 * HIGH / abs(far))]
         low, high = (complex(x + slope * (h - y), h) for h in (min(reach), max(reach)))
         self.lines[i, link] = RateStep(
             "read", "given on plan" if given else "plan", self.order, (Bar(low, high, link),), kind=self.rate,

@@ -202,3 +202,20 @@ def test_a_train_whose_motion_comes_from_another_by_a_driver_is_drawn_with_it(se
     assert checked.ok
     expected = {f"omega_{link}": share * carrier for link, share in to_carrier.items()} | {"omega_6": six}
     assert expected == pytest.approx({name: checked[name].measured for name in expected})
+
+
+BELOW = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -30], "angle": 0}}},
+    "links": {"1": {"points": ["A", "B"], "length": 50}, "2": {"points": ["R"], "on": "0.h"}},
+    "gears": {"g": {"between": ["1", "2"], "teeth": [24, "rack"]}},
+    "driver": {"link": "1", "angle": 40, "omega": 5, "alpha": -2},
+}
+
+
+@pytest.mark.parametrize("scene", [BELOW, *(scene for scene, _ in TRAINS.values())])
+def test_the_lines_of_a_plan_stand_at_the_heights_of_their_train(scene):
+    for plan in draw(scene, figures=["plan"]).checked.sheet.trains:
+        for (k, link), step in plan.lines.items():
+            heights = [spot.height / plan.length for spot in plan.on[k].spots]
+            ends = [end.imag for bar in step.strokes for end in (bar.a, bar.b)]
+            assert {link: []} == {link: [y for y in ends if not min(heights) - 1e-6 <= y <= max(heights) + 1e-6]}
