@@ -403,7 +403,8 @@ def _plan(
     """The plan for a mechanism without cams."""
     scene = structure.scene
     opened = opened_at_triangles(structure) if structure.larger_groups else structure
-    elements = tuple(needed(opened, asked))
+    turned = opened is not structure and any(symbol.scope == "turn" for symbol in asked)
+    elements = tuple(needed(opened, () if turned else asked))  # a turn is followed with the driven triangles
     if opened is not structure and any(isinstance(e, LargerGroup) for e in elements):
         # groups that remain are found by trial, driven triangles with them
         opened, elements = structure, tuple(needed(structure, asked))

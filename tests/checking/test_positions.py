@@ -10,6 +10,7 @@ import graphkin
 from graphkin.api.checked import Checked
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene.symbol import Symbol
+from tests.mechanisms import floating_cylinder
 
 SHAPER = "shaper-scheme-2"
 FOUR_BAR = {
@@ -92,6 +93,12 @@ def test_a_driver_that_does_not_turn_fully_has_no_whole_turn() -> None:
     scene = {**FOUR_BAR, "driver": {"link": "3", "angle": 58, "omega": 1}, "sketch": {"B": [75, 130]}}
     with pytest.raises(Unsolvable, match="K_1: belongs to a whole turn, but driver 3 does not turn fully"):
         graphkin.check(scene, find=["K_1"])
+
+
+@pytest.mark.parametrize("name", ["swing_1", "swing_3"])
+def test_what_a_cylinder_drives_has_no_whole_turn(name: str) -> None:
+    with pytest.raises(Unsolvable, match=f"{name}: belongs to a whole turn, but the driver slides"):
+        graphkin.check(floating_cylinder(900), find=[name])
 
 
 def test_a_pair_that_does_not_slide_is_refused_by_name() -> None:

@@ -200,3 +200,9 @@ def test_the_radius_of_a_slot_without_room_for_a_dimension_stands_at_the_slot() 
     figure = draw(scene, figures=("mechanism",)).figures["mechanism"]
     texts = [thing.string for thing in walk(figure.children) if isinstance(thing, Text)]
     assert [1, 0] == [texts.count(said) for said in ("R 70", "70")]
+
+
+def test_the_numbers_of_distances_on_one_line_stand_clear_of_each_other():
+    """Past the end of a distance that has no room for its number lies the middle of the next."""
+    short, next_ = (dimension(z, w, 0.0, rich(n, 2.8)) for z, w, n in ((0j, 4.85j, "12.1246"), (4.85j, 19.6j, "36.745")))
+    assert DimensionClearance(Obstacles(), None).take([(*short, *next_)], 0) is None

@@ -16,6 +16,7 @@ from graphkin.drawing.place.piece import obstacles_of
 from graphkin.drawing.text import text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.pictures import bare_picture
+from tests.mechanisms import floating_cylinder
 
 FOUR_BAR = graphkin.read("fourbar-150-500-300-400").to_dict() | {"positions": {"count": 4, "first": 0}}
 
@@ -149,3 +150,29 @@ def test_the_limits_of_a_follower_lie_its_lift_apart(cam_with_dwells: Drawing) -
 def test_a_cam_stands_at_the_end_of_a_dwell_where_its_follower_has_its_limit(cam_with_dwells: Drawing) -> None:
     arms = [on_page(cam.end - cam.start) for cam, _ in lines_at_limits(cam_with_dwells)]
     assert pytest.approx([0.0, 160.0]) == [math.degrees(cmath.phase(arm)) for arm in arms]
+
+
+STOPPED = {
+    "frame": {"name": "0", "points": {"A": [0, 0], "D": [100, 0], "G": [-120, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30}, "2": {"points": ["B", "C"], "length": 90},
+        "3": {"points": ["D", "C"], "length": 60}, "4": {"points": ["B", "E"], "length": 60},
+        "5": {"points": ["G", "E"], "length": 40},
+    },
+    "driver": {"link": "1", "angle": 160, "omega": 10},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "wanted"), [
+    (floating_cylinder(900), {
+        "No limit positions are drawn (ψ1: belongs to a whole turn, but the driver slides).",
+        "未画极限位置（ψ1：属于整个循环，但原动件是移动的）。",
+    }),
+    (STOPPED, {"No limit positions are drawn (ψ3: driver 1 at 389.926435 deg: the motion does not reach it)."}),
+])  # fmt: skip
+def test_why_no_limit_positions_are_drawn_is_said_whole_in_both_languages(
+    scene: dict[str, object], wanted: set[str]
+) -> None:
+    figure = graphkin.draw(scene, figures=["positions"], language="both").figures["positions"]
+    lines = {thing.string for thing in walk(figure.children) if isinstance(thing, Text)}
+    assert set() == wanted - lines, lines

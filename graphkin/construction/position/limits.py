@@ -188,8 +188,6 @@ def limits_asked(
         if symbol.scope != "turn" or symbol.pair in limits:
             continue
         output = sliding_pair(structure.slides, symbol) if symbol.other else symbol.link
-        if not {n for e in elements for n in e.members} <= poses.keys():
-            continue
         turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))
         limits[symbol.pair] = turn.limits(output, str(symbol))
     return limits

@@ -47,7 +47,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, Structure
 from graphkin.structure.transmission import joint_of_dyad
-from graphkin.words import Neutral, Wording
+from graphkin.words import Neutral, Phrase, Wording
 from graphkin.words.symbols import RichText, sign, spaced
 
 ROOM = 16.0  # mm around the figure, for names
@@ -117,13 +117,15 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
             asked = tuple(Symbol.parse(f"{kind}_{output}") for kind in kinds)
             try:
                 turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
-            except Unsolvable as stop:  # no whole turn, or an output that turns on and on
-                without[asked[0]] = stop.problems[0].found
+                low, high = turned.limits[output]
+                limits[output] = drawn(low.value), drawn(high.value)
+            except Unsolvable as stop:  # no whole turn, not of all links, or an output that turns on and on
+                where, found = stop.problems[0].where, stop.problems[0].found
+                other = Phrase("where and what", where=where, found=found)
+                without[asked[0]] = found if where == str(asked[0]) else other
                 continue
-            low, high = turned.limits[output]
             if low.rest or high.rest:  # the strokes are not parted by two positions of the crank
                 marks = tuple(mark for mark in marks if mark != "theta")
-            limits[output] = drawn(low.value), drawn(high.value)
             for reading in read_off(turned):
                 if reading.symbol in asked:
                     measured[reading.symbol.kind, output] = float(reading.value.real)
@@ -416,7 +418,7 @@ def _measured_lines(shown: Shown, page: FigurePage) -> list[RichText]:
         ))  # fmt: skip
         said += page.said("positions of", pair=Neutral(pair), values=Neutral(values))
     for symbol, why in shown.without.items():
-        said += page.said("no limits", output=Neutral(page.letters.vector(symbol)), reason=why)
+        said += page.said("no limits", output=page.letters.vector(symbol), reason=why)
     return said
 
 
