@@ -82,16 +82,17 @@ def equations_in_room(
 
 def equations_on_page(lines: Sequence[LineToSet], width: float, height: float) -> tuple[tuple[Primitive, ...], int]:
     """Lines on a page of their own (mm), as ``equations_in_room``, in columns of equal height on a wide page."""
-    columns = 2 if width >= WIDE else 1
-    wide = (width - (columns - 1) * COLUMN_GAP) / columns
 
     def tried() -> Iterator[Placed]:
-        for size in dict.fromkeys(size for size, _ in WAYS):
-            blocks = [line(wide, size) for line in lines]
-            high = min(height, added_up(block.height for block in blocks) / columns)
-            while high < height and len(_in_columns(blocks, wide, high, columns)) < len(blocks):
-                high = min(height, high + size)
-            yield _in_columns(blocks, wide, high, columns)
+        for columns in (2, 1) if width >= WIDE else (1,):  # lines with long names want the whole width
+            wide = (width - (columns - 1) * COLUMN_GAP) / columns
+            for size in dict.fromkeys(size for size, _ in WAYS):
+                blocks = [line(wide, size) for line in lines]
+                high = min(height, added_up(block.height for block in blocks) / columns)
+                while high < height and len(_in_columns(blocks, wide, high, columns)) < len(blocks):
+                    high = min(height, high + size)
+                yield _in_columns(blocks, wide, high, columns)
+        yield [(line(width, LEAST_LETTERS), 0j) for line in lines[:1]]  # one too wide for any page runs off it
 
     return _fullest(tried(), len(lines))
 

@@ -279,3 +279,17 @@ def test_numbers_of_the_divisions_of_a_short_fall_keep_off_each_other(violations
         "driver": {"link": "1", "angle": 20, "omega": 5},
     }  # fmt: skip
     assert [] == violations(draw(scene, figures=["cam"]).figures["cam"].content("svg"))
+
+
+@pytest.mark.parametrize("letters", [24, 40])
+def test_equations_with_names_as_long_as_they_may_be_stand_on_further_pages(letters):
+    a, b, c, crank, block, guide = (name.ljust(letters, name.lower()) for name in "ABCKLG")
+    scene = {
+        "frame": {"name": "0", "points": {a: [0, 120], c: [0, 0]}},
+        "links": {
+            crank: {"points": [a, b], "length": 60}, block: {"points": [b], "on": guide}, guide: {"points": [c]},
+        },
+        "driver": {"link": crank, "angle": 20, "omega": 8, "alpha": 3},
+    }  # fmt: skip
+    told = {text.replace(" ", "") for text in pages(draw(scene, figures=["sheet"], convention="us"))}
+    assert set() == {f"A{b}{guide}", f"A{b}{guide}/{b}{block}c"} - told
