@@ -204,5 +204,6 @@ def test_the_radius_of_a_slot_without_room_for_a_dimension_stands_at_the_slot() 
 
 def test_the_numbers_of_distances_on_one_line_stand_clear_of_each_other():
     """Past the end of a distance that has no room for its number lies the middle of the next."""
-    short, next_ = (dimension(z, w, 0.0, rich(n, 2.8)) for z, w, n in ((0j, 4.85j, "12.1246"), (4.85j, 19.6j, "36.745")))
+    ends = (0j, 4.85j, "12.1246"), (4.85j, 19.6j, "36.745")
+    short, next_ = (dimension(start, end, 0.0, rich(number, 2.8)) for start, end, number in ends)
     assert DimensionClearance(Obstacles(), None).take([(*short, *next_)], 0) is None
