@@ -18,7 +18,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import chain, islice, product
 
-from graphkin.plane import added_up, dot
+from graphkin.plane import Pose, added_up, dot
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import HigherPair, Pair, PlacedGear
 from graphkin.structure.model import Coordinate, LargerGroup, RollingRelation, Structure
@@ -125,8 +125,9 @@ def followers_of(
         follower = Driver(name, frame, start or 0.0, rate, second, ratios=tuple(map(float, ratios)), through=through)
         if kind == "travel":
             slide = next(s for s in slides if s.key == name)
-            if start is None and slide.b == frame and slide.pin in scene.sketch:
-                start = dot(scene.sketch[slide.pin] - slide.guide.through, slide.guide.direction)
+            rail = _sketched(scene, links[slide.b], slides)
+            if start is None and rail is not None and slide.pin in scene.sketch:
+                start = dot(rail.local(scene.sketch[slide.pin]) - slide.guide.through, slide.guide.direction)
             follower = replace(follower, link=slide.a, relative_to=slide.b, slide=name, value=start or 0.0)
         elif start is None:
             follower = replace(follower, value=drawn_angle(scene, links[name]) or 0.0)
@@ -150,6 +151,21 @@ def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:
     given = {**scene.sketch, **scene.drawn, **scene.frame.points}
     ends = [given[p] for p in link.bar if p in given]
     return cmath.phase(ends[1] - ends[0]) if len(ends) == 2 and ends[0] != ends[1] else None
+
+
+def _sketched(scene: Mechanism, link: PlacedLink, slides: Sequence[Pair]) -> Pose | None:
+    """The pose (m) of a link that is known before the mechanism is solved: of the frame, or by its direction and a
+    point, in the frame, drawn or sketched; None where there are none."""
+    still, given = _still(scene, slides), {**scene.sketch, **scene.drawn, **scene.frame.points}
+    if link.name == scene.frame.name:
+        return Pose(0j, 1 + 0j)
+    angles = (d.values[0] for d in scene.drivers if d.turns and d.links == (link.name, scene.frame.name))
+    angle = cmath.phase(still[link.name]) if link.name in still else next(angles, drawn_angle(scene, link))
+    point = next((p for p in link.points if p in given), None)
+    if angle is None or point is None:
+        return None
+    axis = cmath.rect(1.0, angle)
+    return Pose(given[point] - axis * link.points[point], axis)
 
 
 def rolled_by(scene: Mechanism, relation: RollingRelation, member: str, pair: Pair) -> RollingRelation | None:
@@ -207,15 +223,20 @@ def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> 
 def _turned(structure: Structure, name: str, angle: float) -> Driver:
     """A driver that puts a link's own axis at an angle (rad): from a link pinned to it that never turns, because it
     slides on the frame, or on such a link, if there is one."""
-    frame = structure.scene.frame.name
-    still, grown = {frame: 1 + 0j}, True  # own axes
+    frame, still = structure.scene.frame.name, _still(structure.scene, structure.slides)
+    pinned = [n for names in structure.hinges.values() if name in names for n in names if n in still]
+    base = frame if frame in pinned or not pinned else pinned[0]
+    return Driver(name, base, cmath.phase(cmath.rect(1.0, angle) / still[base]), 0.0, 0.0)
+
+
+def _still(scene: Mechanism, slides: Iterable[Pair]) -> dict[str, complex]:
+    """The own axes of the links that never turn: of the frame, and of what slides on it or on such a link."""
+    still, grown = {scene.frame.name: 1 + 0j}, True
     while grown:
         grown = False
-        for s in structure.slides:
+        for s in slides:
             turn = s.guide.direction * s.turn
             if (s.a in still) != (s.b in still):
                 grown = True
                 still |= {s.a: still[s.b] * turn} if s.b in still else {s.b: still[s.a] / turn}
-    pinned = [n for names in structure.hinges.values() if name in names for n in names if n in still]
-    base = frame if frame in pinned or not pinned else pinned[0]
-    return Driver(name, base, cmath.phase(cmath.rect(1.0, angle) / still[base]), 0.0, 0.0)
+    return still

@@ -1,5 +1,8 @@
 """Outlines that touch, and wheels: the solver beside another one in 50 digits, and beside what figures must keep."""
 
+import cmath
+import math
+
 import numpy as np
 import pytest
 
@@ -303,3 +306,24 @@ def test_a_wheel_on_a_rail_of_the_frame_stands_where_it_is_sketched():
     }
     [position] = solve(scene).data["positions"]
     assert [75, 30] == pytest.approx(position["points"]["C@1"]["position"])
+
+
+@pytest.mark.parametrize("seen", [{"angle": 110, "omega": -1}, {"relative_to": "2", "angle": 90, "omega": -2}])
+def test_a_wheel_on_a_rail_of_a_moving_link_stands_where_it_is_sketched(seen):
+    scene = {
+        "frame": {"points": {"O": [0, 0]}},
+        "links": {
+            "2": {"points": ["O"], "guides": {"rail": {"through": [10, 0], "angle": 0}}},
+            "1": {"points": ["C", "P"], "length": 20, "discs": {"w": {"centre": "C", "r": 30}}},
+        },
+        "contacts": {"K": {"between": ["1.w", "2.rail"], "rolling": True}},
+        "driver": [{"link": "2", "angle": 20, "omega": 1}, {"link": "1", **seen}],
+        "sketch": {"C": [60, 50]},
+    }
+    rail = cmath.rect(1, math.radians(20))
+    centre = rail * complex((complex(60, 50) / rail).real, 30)
+    [position] = solve(scene).data["positions"]
+    assert [centre.real, centre.imag] == pytest.approx(position["points"]["C@1"]["position"])
+    # it turns by -2 rad/s on the rail, and with this by 1 rad/s
+    velocity = 60 * rail + 1j * centre
+    assert [velocity.real, velocity.imag] == pytest.approx(position["points"]["C@1"]["velocity"])
