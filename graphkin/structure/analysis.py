@@ -53,8 +53,9 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     Raises
     ------
     Unsolvable
-        status "mobility": the number of drivers is not the mobility, or a part of the mechanism is overconstrained
-        while another is free. NoDriver of that status: a mechanism that can move has no driver at all.
+        status "mobility": the number of drivers is not the mobility, a driver turns a link from one to which slides
+        hold it, or a part of the mechanism is overconstrained while another is free. NoDriver of that status: a
+        mechanism that can move has no driver at all.
     """
     if isinstance(scene, Structure):
         return scene
@@ -64,6 +65,8 @@ def analyse(scene: Mechanism | Structure) -> Structure:
         loose = _loose_ends(structure) if mobility > len(scene.drivers) else ()
         refusal = Unsolvable if scene.drivers or mobility <= 0 else NoDriver
         raise refusal("mobility", _wrong_count(structure), *loose)
+    if held := [*_held_by_slides(structure)]:
+        raise Unsolvable("mobility", *held)
     unknowns = [sorted(row) for row in _equations(structure)]
     given = match(unknowns)
     if len(given) < len(unknowns):
@@ -550,6 +553,19 @@ def _sliding_loop(structure: Structure) -> list[str]:
         merged = group[s.a] | group[s.b]
         group.update(dict.fromkeys(merged, merged))
     return []
+
+
+def _held_by_slides(structure: Structure) -> Iterator[Problem]:
+    """The sentence on each driver that should turn a link from one to which sliding pairs hold it at one angle."""
+    alike = {name: {name} for name in structure.links}
+    for s in structure.slides:
+        merged = alike[s.a] | alike[s.b]
+        alike.update(dict.fromkeys(merged, merged))
+    for driver in structure.scene.drivers:
+        if driver.turns and driver.relative_to in alike.get(driver.link, ()):
+            links = {"driver": driver.key, "link": driver.link, "other": driver.relative_to}
+            yield Problem(Phrase("status mobility"), Phrase("slides hold links at one angle", **links),
+                          "drive the slide or turn another")
 
 
 def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapping[int, Unknown]) -> Problem:

@@ -228,6 +228,18 @@ def test_wheels_driven_twice_are_held_too_much_where_another_link_is_free() -> N
         structure(TWO_GEARS)
 
 
+def test_a_driver_that_turns_a_link_from_one_on_which_it_slides_is_refused_by_name() -> None:
+    crank = {"points": ["A", "B"], "length": 40}
+    scene = mechanism_of({
+        "frame": {"points": {"A": [0, 0], "C": [100, 0]}},
+        "links": {"1": crank, "2": {"points": ["B"], "on": "3"}, "3": {"points": ["C"]}},
+        "driver": {"link": "2", "relative_to": "3", "angle": 0, "omega": 1},
+        "sketch": {"B": [30, 30]},
+    })  # fmt: skip
+    with pytest.raises(Unsolvable, match="driver 2: sliding pairs hold links 2 and 3 at one angle"):
+        analyse(scene)
+
+
 def test_what_is_held_too_much_is_told_without_a_word_of_another_language() -> None:
     with pytest.raises(Unsolvable) as refusal:
         structure(TWO_GEARS)
