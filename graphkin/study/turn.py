@@ -42,7 +42,8 @@ class Output:
         dead point when the output drives it
     turned : its angle, or its travel where the motion is followed no further, over the range of the driver (rad, m; 0
         for what comes back)
-    followed : whether a slide drives it and is followed no further, so that it may go on or come to rest there
+    followed : whether it is followed no further where it may go on or turn back: it has turned back before, or a slide
+        drives it
     """
 
     position: Traced
@@ -480,7 +481,8 @@ def _output(reach: DriverRange, position: Traced) -> Output:
     places, room = [e.value for e in position.extremes], BESIDE * (1.0 + abs(turned))
     open_ends = at_ends[~np.array(reach.limited)]
     held = len(places) > 1 and min(places) - room <= min(open_ends) and max(open_ends) <= max(places) + room
-    return Output(position) if held else Output(position, turned, not reach.driver.turns)
+    turns_back = any(e.kind != "end" for e in position.extremes)
+    return Output(position) if held else Output(position, turned, turns_back or not reach.driver.turns)
 
 
 BESIDE = 1e-9

@@ -1,5 +1,8 @@
 """Two groups at their dead points together: what each gives is within the bound, however near."""
 
+import cmath
+import math
+
 import mpmath
 import pytest
 
@@ -60,3 +63,53 @@ def test_a_group_that_hangs_on_one_beside_its_dead_point_knows_the_bound_of_it(d
 def test_a_sketch_tells_assemblies_apart_that_lie_close_together_beside_a_dead_point():
     for side in (1, -1):
         assert side * graphkin.solve(chain(1e-20, side))["Q"][0].imag > 0
+
+
+def tongs(cells, angle):
+    """Lazy tongs of bars of 60 mm, crossed in their middles, whose first bar turns about L0; and their points."""
+    bar = cmath.rect(30, math.radians(angle))
+    points = {}
+    for i in range(cells + 1):
+        foot = 2 * i * bar.real
+        points |= {f"L{i}": foot, f"M{i}": foot + bar, f"U{i}": foot + 2j * bar.imag}
+    links = {}
+    for i in range(cells):
+        for low, high in ((f"L{i}", f"U{i + 1}"), (f"U{i}", f"L{i + 1}")):
+            links[f"{len(links) + 1}"] = {"points": [low, f"M{i}"], "length": 30, "at": {high: [60, 0]}}
+    links[f"{len(links) + 1}"] = {"points": ["U0"], "on": "0.v"}
+    moving = {p: [complex(z).real, complex(z).imag] for p, z in points.items() if p not in ("L0", f"M{cells}")}
+    return points, {
+        "frame": {"points": {"L0": [0, 0]}, "guides": {"v": {"through": [0, 0], "angle": 90}}},
+        "links": links,
+        "driver": {"link": "1", "angle": angle, "omega": 2},
+        "sketch": moving,
+    }
+
+
+@pytest.mark.parametrize("cells", [1, 2, 4])
+@pytest.mark.parametrize("at", [-0.001, -20, 200])
+def test_lazy_tongs_move_on_through_the_position_in_which_they_lie_flat(cells, at):
+    _, scene = tongs(cells, 40)
+    points, _ = tongs(cells, at)
+    [position] = graphkin.solve(scene, at=at).data["positions"]
+    places = {key: complex(*point["position"]) for key, point in position["points"].items()}
+    assert {key: points[key.split("@")[0]] for key in places} == pytest.approx(places, abs=1e-9)
+    assert graphkin.check(scene, at=at).ok
+
+
+@pytest.mark.parametrize("at", [181, 200, -20, 560])
+def test_coupled_parallelograms_pass_the_position_in_line_together(at):
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [100, 0], "F": [220, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40},
+            "2": {"points": ["B", "C"], "length": 100},
+            "3": {"points": ["D", "C"], "length": 40},
+            "4": {"points": ["C", "E"], "length": 120},
+            "5": {"points": ["F", "E"], "length": 40},
+        },
+        "driver": {"link": "1", "angle": 60, "omega": 7},
+        "sketch": {"C": [120, 35], "E": [240, 35]},
+    }
+    [position] = graphkin.solve(scene, at=at).data["positions"]
+    assert [7] * 3 == pytest.approx([position["links"][name]["omega"] for name in "135"])

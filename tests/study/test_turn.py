@@ -873,3 +873,21 @@ def test_lists_and_brackets_of_a_turn_are_chinese_in_chinese() -> None:
     said = "\n".join(told("slotter-75-150", "zh"))
     assert "基本机构 1、2、3、6：" in said
     assert [] == [sign for sign in (", ", " (", ": ") if sign in said]
+
+
+@pytest.mark.parametrize(("teeth", "why"), [(140, None), (200, "it has no two limit positions as far as")])
+def test_a_slide_that_turns_back_once_as_far_as_it_is_followed_does_not_go_on_and_on(teeth, why):
+    scene = {
+        "frame": {"points": {"A": [0, 0], "B": [20 + teeth, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A"]},
+            "2": {"points": ["B", "C"], "length": 30, "start": 35},
+            "3": {"points": ["C", "D"], "length": 90},
+            "4": {"points": ["D"], "on": "0.h"},
+        },
+        "gears": {"g": {"between": ["1", "2"], "teeth": [20, teeth]}},
+        "driver": {"link": "1", "angle": 20, "omega": 5},
+    }
+    # in the eight turns that are followed the wheel with 200 teeth turns by 288 degrees
+    output = next(output for output in graphkin.sweep(scene, positions=4).data["outputs"] if "slide" in output)
+    assert (60, None) == (pytest.approx(output["stroke"]), why) or output["why"].startswith(why)

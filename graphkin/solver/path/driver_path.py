@@ -294,12 +294,19 @@ def closed(
     def place(angle: Array) -> Array:
         return places_between(angle, low, high)
 
-    inner = np.array([*seams])
-    inner = angles_between(inner[(inner > low + START * wide) & (inner < high - START * wide)], low, high)
+    known = np.sort(np.array([*seams]))
+    known = known[(known > low + START * wide) & (known < high - START * wide)]
+    known = known[np.diff(known, prepend=-np.inf) > OFF_FLIP]  # several groups may pass one together
+    inner = angles_between(known, low, high)
     pieces = resolve(lambda angle: (gap(place(angle))[:, None], np.zeros((len(angle), 1))), 0.0, math.pi, floor=1.0,
                      seams=inner)  # fmt: skip
     roots, rests = map(place, pieces.near_zero(0, DOUBTFUL))
     touches, below = list[float](), list[tuple[float, float]]()
+    if len(known):
+        # where an earlier group passes a change point it is watched beside that: as a square it is a hundredth there
+        least, before, behind = (gap(known + away) for away in (0.0, -10 * OFF_FLIP, 10 * OFF_FLIP))
+        touches += known[least < 0.03 * np.minimum(before, behind)].tolist()
+        rests = np.array([at for at in rests.tolist() if all(abs(at - touch) > 2 * OFF_FLIP for touch in touches)])
     for at, value in zip(rests.tolist(), gap(rests).tolist() if len(rests) else [], strict=True):
         beside = gap(np.clip(np.array([at - BESIDE * wide, at + BESIDE * wide]), low, high))
         if not abs(value) < DOUBTFUL or not (beside > value).all():
