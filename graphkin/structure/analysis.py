@@ -36,7 +36,15 @@ from graphkin.structure.model import (
     reached,
 )
 from graphkin.structure.replacement import replacing_link
-from graphkin.structure.rolling import followers_of, meshes_of, relations_of, rolled_by, start_drivers, unrolled
+from graphkin.structure.rolling import (
+    driven_twice,
+    followers_of,
+    meshes_of,
+    relations_of,
+    rolled_by,
+    start_drivers,
+    unrolled,
+)
 from graphkin.words import Phrase, Wording, about, clauses, listed
 
 Node = tuple[str, str]  # ("link" | "point", name)
@@ -53,9 +61,9 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     Raises
     ------
     Unsolvable
-        status "mobility": the number of drivers is not the mobility, a driver turns a link from one to which slides
-        hold it, or a part of the mechanism is overconstrained while another is free. NoDriver of that status: a
-        mechanism that can move has no driver at all.
+        status "mobility": the number of drivers is not the mobility, slides and rolling give what a driver gives, or a
+        part of the mechanism is overconstrained while another is free. NoDriver of that status: a mechanism that can
+        move has no driver at all.
     """
     if isinstance(scene, Structure):
         return scene
@@ -65,12 +73,14 @@ def analyse(scene: Mechanism | Structure) -> Structure:
         loose = _loose_ends(structure) if mobility > len(scene.drivers) else ()
         refusal = Unsolvable if scene.drivers or mobility <= 0 else NoDriver
         raise refusal("mobility", _wrong_count(structure), *loose)
-    if held := [*_held_by_slides(structure)]:
-        raise Unsolvable("mobility", *held)
     unknowns = [sorted(row) for row in _equations(structure)]
     given = match(unknowns)
     if len(given) < len(unknowns):
         raise Unsolvable("mobility", _wrong_part(structure, unknowns, given), *_loose_ends(structure))
+    if held := driven_twice(scene, structure.touching, structure.links, structure.slides):
+        said = (Phrase("slides wheels and other drivers give", driver=d.key, link=d.link, other=d.relative_to)
+                for d in held)  # fmt: skip
+        raise Unsolvable("mobility", *(Problem(Phrase("status mobility"), one, "drive another pair") for one in said))
     elements = _in_order(structure, _nodes(structure), unknowns, given, {scene.frame.name})
     return _with_starts(_in_parts(replace(structure, elements=elements)))
 
@@ -553,19 +563,6 @@ def _sliding_loop(structure: Structure) -> list[str]:
         merged = group[s.a] | group[s.b]
         group.update(dict.fromkeys(merged, merged))
     return []
-
-
-def _held_by_slides(structure: Structure) -> Iterator[Problem]:
-    """The sentence on each driver that should turn a link from one to which sliding pairs hold it at one angle."""
-    alike = {name: {name} for name in structure.links}
-    for s in structure.slides:
-        merged = alike[s.a] | alike[s.b]
-        alike.update(dict.fromkeys(merged, merged))
-    for driver in structure.scene.drivers:
-        if driver.turns and driver.relative_to in alike.get(driver.link, ()):
-            links = {"driver": driver.key, "link": driver.link, "other": driver.relative_to}
-            yield Problem(Phrase("status mobility"), Phrase("slides hold links at one angle", **links),
-                          "drive the slide or turn another")
 
 
 def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapping[int, Unknown]) -> Problem:

@@ -138,6 +138,39 @@ def followers_of(
     return tuple(followers), left
 
 
+def driven_twice(
+    scene: Mechanism, touching: Iterable[HigherPair], links: Mapping[str, PlacedLink], slides: Iterable[Pair]
+) -> list[Driver]:
+    """The drivers whose rates slides, rolling and the drivers before them give already, so that one contradicts the
+    others."""
+    alike: dict[str, str] = {}  # links that never turn relative to each other, each by another one
+
+    def first(link: str) -> str:
+        while link in alike:
+            link = alike[link]
+        return link
+
+    for s in slides:
+        a, b = sorted((first(s.a), first(s.b)), key=lambda link: link == scene.frame.name)
+        if a != b:
+            alike[a] = b
+
+    def row(terms: Iterable[tuple[Coordinate, Fraction]]) -> Row:
+        added: Row = {}
+        for (kind, name), factor in terms:
+            coordinate = (kind, first(name) if kind == "angle" else name)
+            if coordinate != ("angle", scene.frame.name):
+                added[coordinate] = added.get(coordinate, Fraction(0)) + factor
+        return {coordinate: factor for coordinate, factor in added.items() if factor}
+
+    rows: Rows = {}
+    for relation in relations_of(scene, meshes_of(scene, touching, links)):
+        _add(rows, row(relation.terms.items()))
+    given = ((("angle", d.link), ("angle", d.relative_to)) if d.turns else (("travel", d.key),) for d in scene.drivers)
+    driven = (row(zip(terms, (Fraction(1), Fraction(-1)), strict=False)) for terms in given)
+    return [driver for driver, terms in zip(scene.drivers, driven, strict=True) if not _add(rows, terms)]
+
+
 def _start(scene: Mechanism, name: str) -> float | None:
     """The start of a link or slide: its own, or that of another link from which it is turned, or which it turns."""
     tied = [(d.relative_to, d.value) for d in scene.drivers if d.turns and d.link == name]

@@ -236,7 +236,20 @@ def test_a_driver_that_turns_a_link_from_one_on_which_it_slides_is_refused_by_na
         "driver": {"link": "2", "relative_to": "3", "angle": 0, "omega": 1},
         "sketch": {"B": [30, 30]},
     })  # fmt: skip
-    with pytest.raises(Unsolvable, match="driver 2: sliding pairs hold links 2 and 3 at one angle"):
+    with pytest.raises(Unsolvable, match="other drivers already give how link 2 moves on link 3"):
+        analyse(scene)
+
+
+def test_drivers_that_turn_no_wheel_seen_from_the_frame_are_refused_by_name() -> None:
+    scene = mechanism_of({
+        "frame": {"points": {"A": [0, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 40}, "2": {"points": ["B", "C"], "length": 9},
+                  "3": {"points": ["A"]}},
+        "gears": {"g": {"between": ["2", "3"], "teeth": [20, -60], "carrier": "1"}},
+        "driver": [{"link": "2", "relative_to": "1", "angle": 0, "omega": 1},
+                   {"link": "3", "relative_to": "2", "angle": 0, "omega": 1}],
+    })  # fmt: skip
+    with pytest.raises(Unsolvable, match="driver 3: slides, wheels and other drivers already give"):
         analyse(scene)
 
 
