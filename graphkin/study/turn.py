@@ -42,7 +42,7 @@ class Output:
         dead point when the output drives it
     turned : its angle, or its travel where the motion is followed no further, over the range of the driver (rad, m; 0
         for what comes back)
-    followed : whether it is followed no further where it may go on or turn back: it has turned back before, or a slide
+    followed : whether it is followed no further where it may go on or turn back: it has turned back once, or a slide
         drives it
     """
 
@@ -481,8 +481,8 @@ def _output(reach: DriverRange, position: Traced) -> Output:
     places, room = [e.value for e in position.extremes], BESIDE * (1.0 + abs(turned))
     open_ends = at_ends[~np.array(reach.limited)]
     held = len(places) > 1 and min(places) - room <= min(open_ends) and max(open_ends) <= max(places) + room
-    turns_back = any(e.kind != "end" for e in position.extremes)
-    return Output(position) if held else Output(position, turned, turns_back or not reach.driver.turns)
+    once = sum(e.kind != "end" for e in position.extremes) == 1
+    return Output(position) if held else Output(position, turned, once or not reach.driver.turns)
 
 
 BESIDE = 1e-9
