@@ -113,3 +113,21 @@ def test_coupled_parallelograms_pass_the_position_in_line_together(at):
     }
     [position] = graphkin.solve(scene, at=at).data["positions"]
     assert [7] * 3 == pytest.approx([position["links"][name]["omega"] for name in "135"])
+
+
+@pytest.mark.parametrize("travel", [40, -1e-3, -88])
+def test_an_arm_moves_on_as_its_cylinder_passes_through_no_length(travel):
+    scene = {
+        "frame": {"points": {"A": [0, 0], "C": [80, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 80}, "2": {"points": ["B"], "on": "3"}, "3": {"points": ["C"]},
+        },
+        "driver": {"slide": "2", "travel": 60, "velocity": 10},
+        "sketch": {"B": [60, 50]},
+    }  # fmt: skip
+    [position] = graphkin.solve(scene, at=travel).data["positions"]
+    # the cylinder is a chord of the circle about A, on which C lies
+    angle = 2 * math.asin(travel / 160)
+    assert (angle, 10 / 80 / math.cos(angle / 2)) == pytest.approx(
+        (position["links"]["1"]["angle"], position["links"]["1"]["omega"])
+    )

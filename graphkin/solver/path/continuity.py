@@ -18,7 +18,7 @@ from graphkin.search import extrapolated
 from graphkin.solver.algebra.larger_groups import GroupSolved
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.compiled.engine import group_at, positions
-from graphkin.solver.path.driver_path import OFF_FLIP, START, Path, Stretch, stretches, turning
+from graphkin.solver.path.driver_path import OFF_FLIP, START, Path, Stretch, closed, stretches, turning
 from graphkin.structure import Dyad, LargerGroup, RollingRelation, Structure
 
 CLOSE = 2e-13
@@ -249,10 +249,32 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
     """A path with the assembly mode of a dyad, which changes at change points, up to the dyad's end."""
     found = [s for s in stretches(path.with_sign(i, sign), i, 0.0, path.reach) if s.low <= START]
     first = found[0] if found else Stretch(0.0, 0.0, (False, True))
-    limit, flips = first.high if first.ends[1] else None, np.array(first.touches)
+    limit = first.high if first.ends[1] else None
+    flips = np.sort([*first.touches, *_without_leg(path.with_sign(i, sign), i, dyad, first)])
     if dyad.is_two_lines and len(flips):
         limit, flips = float(flips[0]), flips[:0]
     return _passed_by(path, i, partial(_flipped, sign, flips), flips, limit)
+
+
+def _without_leg(path: Path, i: int, dyad: Dyad, along: Stretch) -> list[float]:
+    """The places at which a driven slide draws the inner hinge of a dyad into an outer one: as it passes through this
+    the two change sides."""
+    links, inner, found = path.structure.links, dyad.inner.point, list[float]()
+    bodies = (dyad.first, dyad.outer_first), (dyad.second, dyad.outer_second)
+    for (body, outer), (other, _) in zip(bodies, bodies[::-1], strict=True):
+        if dyad.kind == "RRR" and not all(joint.pair.turns for joint in body.joints):
+            link = next(name for name in other.links if inner in links[name].points)
+            ends = (link, links[link].points[inner]), (outer.b, links[outer.b].points[outer.point])
+            found += closed(partial(_square_between, path, i, *ends), along.low, along.high)[0].touches
+    return found
+
+
+def _square_between(path: Path, i: int, one: tuple[str, complex], two: tuple[str, complex], t: Array) -> Array:
+    """The square of the distance of two places, each of a link, over the size."""
+    t = path.off_flips(t)
+    poses = positions(path.structure, path.drive(t), path.mode(t), i + 1, rates=False).poses
+    (a, b), size = (poses[link].fixed(at).z for link, at in (one, two)), path.structure.scene.size
+    return np.broadcast_to(np.abs((a - b) / size) ** 2, t.shape)
 
 
 def _passed_by(path: Path, i: int, mode: Callable[[Array], Array], flips: Array, limit: float | None) -> Path:
