@@ -131,3 +131,25 @@ def test_an_arm_moves_on_as_its_cylinder_passes_through_no_length(travel):
     assert (angle, 10 / 80 / math.cos(angle / 2)) == pytest.approx(
         (position["links"]["1"]["angle"], position["links"]["1"]["omega"])
     )
+
+
+def test_a_parallelogram_goes_on_turning_beside_a_kite_that_closes_after_two_turns():
+    # the pin C passes through K in the position in which the last parallelogram is in line; lengths as programs round
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [69.2820323027551, 39.99999999999999], "K": [29.28203230275509, 40],
+                             "G": [149.2820323027551, 39.99999999999999]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40.00000000000001},
+            "2": {"points": ["B", "C"], "length": 80},
+            "3": {"points": ["D", "C"], "length": 40.00000000000001},
+            "4": {"points": ["C", "E"], "length": 90},
+            "5": {"points": ["K", "E"], "length": 89.99999999999999},
+            "6": {"points": ["C", "F"], "length": 80},
+            "7": {"points": ["G", "F"], "length": 39.99999999999999},
+        },
+        "driver": {"link": "1", "angle": 20, "omega": 3},
+        "sketch": {"C": [107, 54], "E": [52, 124], "F": [187, 54]},
+    }  # fmt: skip
+    turn = graphkin.sweep(scene, positions=7, find=["omega_7"])
+    assert [3] * 7 == pytest.approx(list(turn["omega_7"]))
+    assert 2 == turn.data["driver"]["turns_to_close"]

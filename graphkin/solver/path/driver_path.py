@@ -306,7 +306,9 @@ def closed(
         # where an earlier group passes a change point it is watched beside that: as a square it is a hundredth there
         least, before, behind = (gap(known + away) for away in (0.0, -10 * OFF_FLIP, 10 * OFF_FLIP))
         touches += known[least < 0.03 * np.minimum(before, behind)].tolist()
-        rests = np.array([at for at in rests.tolist() if all(abs(at - touch) > 2 * OFF_FLIP for touch in touches)])
+    for at in touches:
+        rests = rests[np.abs(rests - at) > 2 * OFF_FLIP]
+        roots = roots[np.abs(gap((roots + at) / 2)) > DOUBTFUL] if len(roots) else roots
     for at, value in zip(rests.tolist(), gap(rests).tolist() if len(rests) else [], strict=True):
         beside = gap(np.clip(np.array([at - BESIDE * wide, at + BESIDE * wide]), low, high))
         if not abs(value) < DOUBTFUL or not (beside > value).all():
