@@ -153,3 +153,23 @@ def test_a_parallelogram_goes_on_turning_beside_a_kite_that_closes_after_two_tur
     turn = graphkin.sweep(scene, positions=7, find=["omega_7"])
     assert [3] * 7 == pytest.approx(list(turn["omega_7"]))
     assert 2 == turn.data["driver"]["turns_to_close"]
+
+
+def test_a_kite_whose_pins_meet_goes_on_over_several_turns_too():
+    # C passes through K at 313.604 degrees, in the crossed position of B and C
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [100, 0], "K": [100, 40]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40},
+            "2": {"points": ["B", "C"], "length": 100},
+            "3": {"points": ["D", "C"], "length": 40},
+            "4": {"points": ["C", "E"], "length": 90},
+            "5": {"points": ["K", "E"], "length": 90},
+        },
+        "driver": {"link": "1", "angle": 75, "omega": 1},
+        "sketch": {"C": [79, -34], "E": [168, -19]},
+    }
+    turn = graphkin.sweep(scene, positions=360, find=["omega_4", "omega_5"])
+    # it turns evenly where the pins meet, at 238.6 degrees from the start
+    assert turn["omega_4"][238] == pytest.approx(turn["omega_4"][239], abs=0.05)
+    assert turn["omega_5"][238] == pytest.approx(turn["omega_5"][239], abs=0.05)

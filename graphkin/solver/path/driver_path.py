@@ -40,6 +40,8 @@ BESIDE = 1e-5
 POLISHED = 1e-6
 """Of a path: so far on both sides of a root its last digit is looked for."""
 STEP = Decimal(10) ** -12
+PLACED = Decimal(10) ** -17
+"""Of a path: a least value is placed, in fifty digits, as well as this at least."""
 MOST_GROUPS = 7
 """Of so many groups all assemblies are tried."""
 OFF_FLIP = 1e-6
@@ -168,9 +170,11 @@ class Path:
             return None
         with working():
             least, sign = discriminant.signed(0, self._meant(place))
-            if sign >= 0:
-                return () if sign else (place,)
             second = (value(place + STEP) + value(place - STEP) - 2 * least) / (STEP * STEP)
+            if sign > 0 and least > second * PLACED**2:
+                return ()
+            if sign >= 0:
+                return (place,)
             away = (-2 * least / second).sqrt() if second > 0 else Decimal(0)
         ends = (newton(value, place + side * away) for side in (-1, 1) if away)
         return tuple(end for end in ends if end is not None)
