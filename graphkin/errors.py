@@ -6,14 +6,15 @@ Text for the terminal, the notebook and the tests is made here and nowhere else.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
-from graphkin.words import Phrase, Wording, clause_of, joined, say, word
+from graphkin.words import Phrase, Wording, clause_of, joined, listed, say, word
 
 PAGE = 4000
 """Characters of a clause that are shown."""
+MOST_NAMED = 12
 _LONG_WORD = re.compile("[!-~\x00]{300,}")
 
 
@@ -195,6 +196,16 @@ def as_list(where: str, value: object, wanted: Wording) -> list[Any]:
         raise unfit(where, value, wanted) from None
 
 
+def some_of(names: Sequence[str]) -> Wording:
+    """The first names of many, as an argument of a sentence.
+
+    >>> str(some_of([*"ABCDEFGHIJKLMNO"]))
+    'A, B, C, D, E, F, G, H, I, J, K, L, ...'
+    """
+    said: Wording = listed([*names[:MOST_NAMED], *["..."] * (len(names) > MOST_NAMED)])
+    return said
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> Phrase:
     """A clause that proposes the nearest known word, or names the known words if none is near.
 
@@ -211,5 +222,4 @@ def did_you_mean(name: str, known: Iterable[str]) -> Phrase:
         near = [n for n in names if n.lower() == name.lower()]
     if near:
         return Phrase("did you mean", name=near[0])
-    shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
-    return Phrase("known here", names=shown) if names else Phrase("there is none here")
+    return Phrase("known here", names=some_of(names)) if names else Phrase("there is none here")

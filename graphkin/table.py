@@ -32,7 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json, opened, path_of, whole_file, write_files
-from graphkin.words import Phrase, from_others
+from graphkin.words import Phrase, from_others, listed
 
 if TYPE_CHECKING:
     import pandas
@@ -348,7 +348,7 @@ class Table:
         frame = _library("pandas").DataFrame(columns if self.index else {"row": np.arange(len(self)), **columns})
         dataset = frame.set_index(list(along)).to_xarray()
         if dataset.sizes and math.prod(dataset.sizes.values()) != len(self):
-            raise CallError.of("table", "is no grid of", shape=", ".join(self.index))
+            raise CallError.of("table", "is no grid of", shape=listed(self.index))
         for column in self.columns:  # "units" is the name that xarray's plots look for
             facts = _facts(column).items()
             dataset[column.name].attrs |= {"units" if fact == "unit" else fact: text for fact, text in facts}
@@ -366,7 +366,7 @@ class Table:
         target = path_of(path)
         kind = target.suffix.lower()
         if kind not in FILES:
-            raise CallError.of(str(path), "is no table of kind", "known here", kind=kind, names=", ".join(FILES))
+            raise CallError.of(str(path), "is no table of kind", "known here", kind=kind, names=listed([*FILES]))
         arrow = self.to_arrow() if kind == ".parquet" else None
         try:
             with whole_file(target) as out:

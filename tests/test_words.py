@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import re
 import shutil
@@ -14,7 +15,8 @@ from pathlib import Path
 import pytest
 
 import graphkin
-from graphkin.words import LANGUAGES, Phrase, area, gaps_of, rich_text
+from graphkin.errors import did_you_mean
+from graphkin.words import LANGUAGES, Phrase, area, gaps_of, listed, rich_text, say
 from graphkin.words.symbols import RichText, sign, stretches
 from graphkin.words.written import roman
 from tests.command import start
@@ -136,3 +138,44 @@ def test_dollar_signs_and_braces_of_a_name_are_no_marks_of_symbols():
 
 def test_a_sixth_trial_or_inset_has_a_numeral_of_its_own():
     assert ["I", "II", "III", "IV", "V", "VI", "VII"] == [roman(number) for number in range(1, 8)]
+
+
+SENTENCES = {"Phrase", "Problem", "of", "say", "unfit"}
+
+
+def is_joined(node: ast.AST) -> bool:
+    """Whether an expression is texts joined by marks of English."""
+    match node:
+        case ast.Call(func=ast.Attribute(value=ast.Constant(value=", " | "; "), attr="join")):
+            return True
+    return isinstance(node, ast.Subscript) and is_joined(node.value)
+
+
+def lists_by_hand(tree: ast.AST) -> list[int]:
+    """The lines of sentences with a gap that is filled by texts joined by hand, there or in a variable of its
+    function."""
+    found = set()
+    for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
+        inner = [*ast.walk(function)]
+        kept = {t.id for n in inner if isinstance(n, ast.Assign) and is_joined(n.value)
+                for t in n.targets if isinstance(t, ast.Name)}  # fmt: skip
+        for call in (n for n in inner if isinstance(n, ast.Call)):
+            if getattr(call.func, "id", getattr(call.func, "attr", "")) in SENTENCES:
+                values = (*call.args, *(keyword.value for keyword in call.keywords))
+                found |= {v.lineno for v in values if is_joined(v) or getattr(v, "id", None) in kept}
+    return sorted(found)
+
+
+def test_lists_in_sentences_are_joined_with_the_marks_of_the_language():
+    sources = {str(path): path.read_text(encoding="utf-8") for path in TABLES.parent.rglob("*.py")}
+    by_hand = {name: lists_by_hand(ast.parse(source)) for name, source in sources.items() if ".join(" in source}
+    assert {} == {name: lines for name, lines in by_hand.items() if lines}
+
+
+def test_known_names_are_listed_with_the_comma_of_chinese():
+    assert "可用的有：A、B、C" == say(did_you_mean("Q", "ABC"), "zh")
+
+
+def test_a_list_may_be_as_long_as_a_mechanism_has_names():
+    names = [str(number) for number in range(5000)]
+    assert ", ".join(names) == say(listed(names))

@@ -11,7 +11,7 @@ from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkP
 from graphkin.plane import dot
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, written
+from graphkin.words import Phrase, listed, written
 from graphkin.words.symbols import RichText, Words
 from graphkin.words.written import MOST, amount, on_paper, true_minus
 
@@ -29,7 +29,7 @@ def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], Words
         key = "centre rolling" if centre.rolls else "centre guide" if far else "centre joint"
         return Phrase(key, centre=centre.pair, joint=centre.joint)
     if centre.way:
-        return Phrase(f"centre {centre.way}", centre=centre.pair, kept=", ".join(centres.kept))
+        return Phrase(f"centre {centre.way}", centre=centre.pair, kept=listed(centres.kept))
     through = [line.through for line in centre.lines]
     endless = [all(not isinstance(end, str) and centres.of(*end).point is None for end in ends) for ends in through]
     first, second = (line_through(line, name, lambda pin: f"n({pin})") for line in centre.lines)

@@ -8,10 +8,11 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import ClassVar
 
 from graphkin.account.headings import number
-from graphkin.account.voice import Telling
+from graphkin.account.voice import Telling, numbered
 from graphkin.construction.board.steps import (
     FINDS_A_POINT,
     Bar,
@@ -26,7 +27,7 @@ from graphkin.construction.board.steps import (
 )
 from graphkin.plane import cross, degrees, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Neutral, Phrase, in_turn, joined, listed, sense_of
+from graphkin.words import Neutral, Phrase, clauses, in_turn, joined, listed, sense_of
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import on_paper, roman, true_minus
 
@@ -190,12 +191,12 @@ class InMechanism(Telling):
         moved, missed = self._moved_and_missed(table)
         values, misses = zip(*(self._row(table, row) for row in table.trials), strict=True)
         if len(table.moved) > 1:
-            several = {"values": _numbered(values), "misses": _numbered(misses)}
+            several = {"values": numbered(values), "misses": numbered(misses)}
             told = Phrase("trial table several", moved=moved, missed=missed, **several)
             return Phrase("in turn", first=self.plain, second=self._divided_by_parts(table, told))
         unit = "°" if table.missed[0].angle else " mm"
-        measured = "; ".join(misses).replace(unit, "") + unit
-        told = Phrase("trial table", moved=moved, values=listed(values), missed=missed, misses=measured)
+        measured = clauses([*(miss.removesuffix(unit) for [miss] in misses[:-1]), *misses[-1]])
+        told = Phrase("trial table", moved=moved, values=listed([*chain(*values)]), missed=missed, misses=measured)
         if table.divided:
             before = table.before
             of_two = (table.trials[i][1][0] for i in (before - 1, before))
@@ -203,35 +204,36 @@ class InMechanism(Telling):
             (first_values, first_misses), *rest = (self._row(table, row) for row in table.divided)
             told = Phrase(
                 "trial division", told=told, first=before, second=before + 1, parts=part, whole=whole,
-                values=first_values, misses=first_misses,
+                values=listed(first_values), misses=listed(first_misses),
             )  # fmt: skip
             if rest:
-                told = Phrase("trial division again", told=told, value=rest[-1][0])
+                told = Phrase("trial division again", told=told, value=listed(rest[-1][0]))
         return Phrase("in turn", first=self.plain, second=told)
 
     def _positions_lines(self, language: str) -> Iterator[Phrase]:
         """Trial positions: the moved quantity, the construction of each point, the gap, and the value that closes
         it."""
         trial = self.step_of(TrialPositions)
-        out, moved, rolled = (", ".join(n) for n in (trial.left_out, trial.driven, trial.rolling))
+        out, moved, rolled = map(listed, (trial.left_out, trial.driven, trial.rolling))
         fitted = Phrase("written trial", left_out=out, moved=moved)
         parts = [Phrase("written trial rolling", moved=moved, contact=rolled) if rolled else fitted]
         if trial.trials:
             moved_words, missed = self._moved_and_missed(trial)
             rows = [self._row(trial, row) for row in trial.trials]
             if len(trial.moved) > 1:
-                numbered = ([Neutral(sign(roman(i)), f" {row[k]}") for i, row in enumerate(rows, 1)] for k in (0, 1))
-                values, misses = map(listed, numbered)
+                both = ([Neutral(sign(roman(i)), " ", ", ".join(row[k])) for i, row in enumerate(rows, 1)]
+                        for k in (0, 1))  # fmt: skip
+                values, misses = map(listed, both)
                 parts.append(Phrase("written tried", moved=moved_words, values=values))
                 parts.append(Phrase("written missed", missed=missed, misses=misses))
             else:
-                values = listed([row[0] for row in rows])
+                values = listed([*chain(*(row[0] for row in rows))])
                 parts.append(Phrase("written tried one", moved=moved_words, values=values, trials=len(rows)))
                 near = (trial.before, trial.before + 1)
-                seen = listed([Phrase("written miss", misses=rows[i - 1][1], trial=i) for i in near])
+                seen = listed([Phrase("written miss", misses=listed(rows[i - 1][1]), trial=i) for i in near])
                 parts.append(Phrase("written missed", missed=missed, misses=seen))
             if trial.divided:
-                parts.append(Phrase("written fits", values=self._row(trial, trial.divided[-1])[0]))
+                parts.append(Phrase("written fits", values=listed(self._row(trial, trial.divided[-1])[0])))
         if route := [*self._route()]:
             parts.insert(2, Phrase("written route", route=listed([*map(Neutral, route)])))
         yield in_turn(parts)
@@ -270,25 +272,25 @@ class InMechanism(Telling):
     def _divided_by_parts(self, table: TrialPositions, told: Phrase) -> Phrase:
         """The divisions of trials that each moved another unknown."""
         for i, row in enumerate(table.divided):
-            values, misses = self._row(table, row)
+            values, misses = map(listed, self._row(table, row))
             if i:
                 replaced = sign(roman(table.replaced[i - 1]))
                 told = Phrase("trial parts again", division=told, trial=replaced, values=values, misses=misses)
             else:
-                steps = spaced(", ", (sign(roman(k)) for k in range(2, len(table.trials) + 1)))
-                parts = ", ".join(map(_two_digits, table.parts))
+                steps = listed([sign(roman(k)) for k in range(2, len(table.trials) + 1)])
+                parts = listed([*map(_two_digits, table.parts)])
                 told = Phrase("trial parts", division=told, parts=parts, trials=steps, values=values, misses=misses)
         return told
 
-    def _row(self, table: TrialPositions, row: TrialRow) -> tuple[str, str]:
+    def _row(self, table: TrialPositions, row: TrialRow) -> tuple[list[str], list[str]]:
         """The values of a trial, and its gaps, each with its unit."""
-        values = (  # angles from -180 to 180
+        values = [  # angles from -180 to 180
             f"{_two_digits(180.0 - (180.0 - math.degrees(v)) % 360.0)}°" if symbol.measure.is_angle
             else f"{_two_digits(self._shown(v))} mm" for v, symbol in zip(row[0], table.moved, strict=True)
-        )  # fmt: skip
-        misses = (_two_digits(self._shown(miss, of.angle)) + ("°" if of.angle else " mm")
-                  for miss, of in zip(row[1], table.missed, strict=True))  # fmt: skip
-        return ", ".join(values), ", ".join(misses)
+        ]  # fmt: skip
+        misses = [_two_digits(self._shown(miss, of.angle)) + ("°" if of.angle else " mm")
+                  for miss, of in zip(row[1], table.missed, strict=True)]  # fmt: skip
+        return values, misses
 
     def _shown(self, value: float, angle: bool = False) -> float:
         """An angle (rad) in degrees, or a length (m) in mm on paper."""
@@ -302,7 +304,7 @@ class InMechanism(Telling):
         """A measured gap: between the ends of a bar, from a guide, or of a list."""
         if missed.kind != "guide":
             ends = PointNames(missed.names, bar=True)
-            named: object = ends if missed.kind == "bar" else ", ".join(missed.names)
+            named: object = ends if missed.kind == "bar" else listed(missed.names)
             return Phrase(f"missed {missed.kind}", names=named, length=on_paper(self._shown(missed.length)))
         *points, key = missed.names
         slide = self.sheet.structure.slide(key)
@@ -382,10 +384,6 @@ def _degrees(direction: complex) -> str:
 
 
 # -- trials in words ---------------------------------------------------------------------------------------------------
-
-
-def _numbered(rows: Sequence[str]) -> str:
-    return "; ".join(f"{roman(i)} {row}" for i, row in enumerate(rows, 1))
 
 
 def _two_digits(value: float) -> str:

@@ -21,7 +21,7 @@ from graphkin.account.arithmetic import (
 )
 from graphkin.account.headings import number, term
 from graphkin.account.notation import unit_of
-from graphkin.account.voice import SAME, Telling
+from graphkin.account.voice import SAME, Telling, numbered
 from graphkin.construction.board.sheet import Rate
 from graphkin.construction.board.steps import (
     GIVEN,
@@ -423,12 +423,10 @@ class InPolygon(Telling):
     def _superposed(self) -> Phrase:
         """The gaps of the trials, measured from letter to letter, and the proportional division in numbers."""
         divided = self._divided
-        rows = true_minus("; ".join(
-            f"{roman(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(divided.apart, 1)
-        )) + " mm"  # fmt: skip
+        rows = numbered([true_minus(on_paper(mm)) for mm in row] for row in divided.apart)
         found, quotients = self._rates(divided.found), divisions(self.sheet, divided)
         if len(quotients) > 1:
-            parts = ", ".join(one.part for one in quotients)
+            parts = listed([one.part for one in quotients])
             return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=found)
         return Phrase("superposed one", between=self._left_open(), open=rows, sum=quotients[0].terms, rates=found)
 
@@ -446,7 +444,7 @@ class InPolygon(Telling):
         yield Phrase("written trials", trials=listed(numerals), left_out=closing, open=self._left_open())
         for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
             rates = spaced(", ", (symbol(s) + f" = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed))
-            gaps = ", ".join(printed(on_paper(mm)) for mm in row)
+            gaps = listed([printed(on_paper(mm)) for mm in row])
             yield Phrase("written trial polygon", trial=mark, rates=Neutral(rates), open=gaps)
         quotients = divisions(self.sheet, divided)
         said = Neutral(spaced("; ", (
@@ -454,7 +452,7 @@ class InPolygon(Telling):
             for (s, _), one in zip(divided.found, quotients, strict=True)
         )))  # fmt: skip
         if len(quotients) > 1:
-            parts = ", ".join(one.part for one in quotients)
+            parts = listed([one.part for one in quotients])
             first, others = sign(roman(1)), listed(numerals[1:])
             yield Phrase("written superposed several", parts=parts, first=first, others=others, rates=said)
         else:

@@ -25,7 +25,7 @@ from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import KINDS
 from graphkin.structure.loops import Loop, LoopArrow, LoopBlock, Root, loops_in_numbers
 from graphkin.structure.model import Coordinate
-from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words import Phrase, listed, rich_text, say, word
 from graphkin.words.symbols import Atom, RichText, Words, plain, rate, sign, spaced, stretches
 
 if TYPE_CHECKING:
@@ -278,8 +278,8 @@ class LoopText:
         lines = [say(units_named, self.language), ""] if self.blocks else []
         for block in self.blocks:
             for loop in block.loops:
-                links, sum_ = ", ".join(loop.links), equation(loop, letters)
-                head = Phrase("loop heading", loop=loop.name, links=links, equation=sum_)
+                sum_ = equation(loop, letters)
+                head = Phrase("loop heading", loop=loop.name, links=listed(loop.links), equation=sum_)
                 x, y = projections(loop, block, self.scene)
                 lines += [say(head, self.language), f"  x: {plain(x)}", f"  y: {plain(y)}"]
                 if loop.root is not None:

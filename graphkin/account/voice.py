@@ -28,8 +28,9 @@ from graphkin.construction.board.steps import (
     Vector,
 )
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, filled, languages, listed, rich_text, word
+from graphkin.words import Phrase, Wording, clauses, filled, languages, listed, rich_text, word
 from graphkin.words.symbols import RichText, Words
+from graphkin.words.written import roman
 
 SAME = 0.02  # mm: nearer end points fall together on paper
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
@@ -309,6 +310,11 @@ class Telling:
         """The lines to repeat it."""
         for line in self.lines[self.step.reason](self, language) if self.step.reason in self.lines else ():
             yield from self.account.in_each(line, language) if isinstance(line, Phrase) else (line,)
+
+
+def numbered(rows: Iterable[Sequence[str]]) -> Wording:
+    """Rows of numbers, each with its numeral."""
+    return clauses([Phrase("numbered row", number=roman(i), values=listed(row)) for i, row in enumerate(rows, 1)])
 
 
 def whole_sentence(text: Words, language: str) -> RichText:

@@ -22,7 +22,7 @@ from graphkin.scene.scene import SceneLike, mechanism_of
 from graphkin.scene.scene_tables import Convention, SheetWishes
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, links_named
+from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, clauses, links_named, listed
 
 if TYPE_CHECKING:
     from graphkin.construction import Instrument
@@ -55,7 +55,7 @@ def known_words(
     """
     if isinstance(formats, str):
         raise CallError.of("format", "is a text", "give a list", formats=formats)
-    formats = as_list("format", formats, Phrase("give a list of", names=", ".join(known_formats)))
+    formats = as_list("format", formats, Phrase("give a list of", names=listed(known_formats)))
     wishes: list[tuple[str, object, Sequence[str]]] = [("format", word, known_formats) for word in formats]
     wishes += [
         (where, word, known)
@@ -69,7 +69,7 @@ def known_words(
     ]
     wrong = [problem for where, word, known in wishes for problem in unknown_words(where, [word], known)]
     if not formats:
-        wrong.append(Problem("format", "none given", "known here", names=', '.join(known_formats)))
+        wrong.append(Problem("format", "none given", "known here", names=listed(known_formats)))
     if any(isinstance(word, str) and word == "dxf" for word in formats) and find_spec("ezdxf") is None:
         wrong.append(Problem("format", '"dxf"', "it needs the extra cad pip install graphkin"))
     if wrong:
@@ -249,8 +249,8 @@ def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase
     said = []
     for links in dict.fromkeys(point.links for point in passed):
         at = [zip(scene.drivers, point.values, strict=True) for point in passed if point.links == links]
-        places = (", ".join(f"{d.key} = {scene.place_said(d, v)}" for d, v in values) for values in at)
-        said.append(Phrase("passed change point", links=links_named(links), places="; ".join(dict.fromkeys(places))))
+        places = (listed([f"{d.key} = {scene.place_said(d, v)}" for d, v in values]) for values in at)
+        said.append(Phrase("passed change point", links=links_named(links), places=clauses([*dict.fromkeys(places)])))
     return said
 
 
@@ -298,7 +298,7 @@ def hand_of(wishes: SheetWishes, name: str, seed: int) -> Instrument:
     from graphkin.construction import EXACT, cad, pencil
 
     if not isinstance(name, str):
-        raise unfit("instrument", name, "known here", names=", ".join(INSTRUMENTS))
+        raise unfit("instrument", name, "known here", names=listed(INSTRUMENTS))
     if name == "exact":
         return EXACT
     if name == "cad":

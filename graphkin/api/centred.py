@@ -27,7 +27,7 @@ from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import PointRef
 from graphkin.solver import solved_here
 from graphkin.structure import Structure
-from graphkin.words import Phrase, languages, rich_text, say, word
+from graphkin.words import Phrase, languages, listed, rich_text, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
@@ -60,12 +60,12 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     wrong += [str(v.symbol) for v in centred.velocities if v.ok is False]
     near = [v.too_near(language) for v in centred.velocities if v.ok is None]
     count = sum(e is not None for e in centred.errors.values())
-    still = ", ".join(name(centre.pair) for centre in centres.found if centred.errors[centre.pair] is None)
-    verdict = Phrase("centres checked but", centres=count, still=still)
+    still = [name(centre.pair) for centre in centres.found if centred.errors[centre.pair] is None]
+    verdict = Phrase("centres checked", centres=count)
     if wrong:
-        verdict = Phrase("check failed", readings=", ".join(wrong))
-    elif not still:
-        verdict = Phrase("centres checked", centres=count)
+        verdict = Phrase("check failed", readings=listed(wrong))
+    elif still:
+        verdict = Phrase("centres checked but", centres=count, still=listed(still))
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
     head = [*why, *[""] * bool(why), *[word("velocities by centres", language)] * bool(velocities)]
     return heads, rows, [*head, *velocities, *near, say(verdict, language)]

@@ -23,7 +23,7 @@ from graphkin.solver.compiled.kernel import pays
 from graphkin.study.designs import Designs
 from graphkin.study.sweeps import FollowedDesign, Sweep
 from graphkin.table import Table, Tabled
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 
 if TYPE_CHECKING:
     from graphkin.solver.prepared import PreparedMechanism
@@ -180,7 +180,7 @@ class Prepared(Tabled, OfScene):
 
         if self.ready.solved:
             raise CallError.of("over", "are not given over designs", "prepare each design or sweep over designs",
-                               names=", ".join(map(str, self.ready.solved)))
+                               names=listed([*map(str, self.ready.solved)]))
         try:
             values = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in designs.values()))
         except (AttributeError, TypeError, ValueError):

@@ -40,19 +40,20 @@ def report_text(checked: Checked, language: str) -> str:
     count = sheet.structure.mobility
     lines.append(f"F = 3·{count.links} − 2·{count.lower} − {count.higher} = {count.value}")
     drivers = [f"{d.key}: {scene.unit_of(d).said(sheet.drivers[d.key])}" for d in scene.drivers]
-    lines.append(f"{word('driver', language)}{colon}{', '.join(drivers)}")
+    lines.append(f"{word('driver', language)}{colon}{say(listed(drivers), language)}")
     for group, assembly in sheet.assembly.items():
         of = say(Phrase("group of links", links=group), language)
         lines.append(f"{of}{colon}{plain_said(assembly, language)}")
     lines += [say(said, language) for said in passed_words(scene, checked.passed)]
     scales = checked.scales
-    per_mm = ", ".join(scene.units.of(name).beside(f"{scales[name]:g}") for name in ("velocity", "acceleration"))
+    names = "velocity", "acceleration"
+    per_mm = f"{scales['length']:g} mm", *(scene.units.of(name).beside(f"{scales[name]:g}") for name in names)
     # what was drawn by itself, with a link held still
     steps_apart = [f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.held_still]
     held_still = [word("held still", language), *steps_apart, ""] if steps_apart else []
     lines += [
         "",
-        f"1 mm = {scales['length']:g} mm, {per_mm}",
+        f"1 mm = {say(listed(per_mm), language)}",
         "",
         *held_still,
         word("steps", language),
@@ -129,16 +130,16 @@ def verdict(checked: Checked, language: str) -> str:
     report = checked.report
     said = []
     if missing := [str(s) for s in report.missing if s not in checked.over_turn]:
-        said.append(Phrase("not drawn", quantities=", ".join(missing)))
+        said.append(Phrase("not drawn", quantities=listed(missing)))
     for symbol, value in checked.over_turn.items():
         unit = symbol.unit(checked.mechanism.units)
         shown = f"{amount(unit.of(value), MOST)} {unit.text}"
         said.append(Phrase("over the turn", symbol=str(symbol), value=shown))
     wrong = [str(r.symbol) for r in report.rows if r.ok is False]
     if report.undetermined:
-        said.append(Phrase("not determined", readings=", ".join(map(str, report.undetermined))))
+        said.append(Phrase("not determined", readings=listed([*map(str, report.undetermined)])))
     if wrong:
-        said.append(Phrase("check failed", readings=", ".join(wrong)))
+        said.append(Phrase("check failed", readings=listed(wrong)))
     elif agree := [r for r in report.rows if r.ok is True]:
         whole = not said
         said.append(Phrase(about("check passed" if whole else "rest agrees", agree), readings=len(agree)))
@@ -153,7 +154,7 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     other = checked.at_contacts
     if other is None:
         pins = dict.fromkeys(s.pin for s in checked.mechanism.slides if s.higher)
-        return [say(Phrase("at pins", points=", ".join(pins)), language)] if pins else []
+        return [say(Phrase("at pins", points=listed([*pins])), language)] if pins else []
     said = ("at contact", "at pitch curve")
     ways = dict.fromkeys((str(n.of[0]), n.key) for n in other.sheet.remarks if n.key in said)
     if not ways:  # nothing asked leads over a contact
@@ -167,7 +168,7 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
         for symbol, length, said, _, unit, _ in reading_words(other)
         if any(f"_{n}@" in symbol for n in names)
     ]
-    where = {"point" if curve else "contact": ", ".join(names)}
+    where = {"point" if curve else "contact": listed(names)}
     key = "at pitch curve" if curve else "at contact"
     key += " agrees" if other.ok and alike == len(both) else " differs"
     lines = [say(Phrase(key, **where, agreeing=alike, readings=len(both)), language)]
@@ -248,8 +249,8 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     for least in turn.transmission:
         where = word("same everywhere", language)
         if least.drivers:
-            places = (scene.place_said(driver, value) for value in least.drivers)
-            where = f"{driver.key} = {word('list comma', language).join(places)}"
+            places = listed([scene.place_said(driver, value) for value in least.drivers])
+            where = f"{driver.key} = {say(places, language)}"
         where = say(Phrase("in brackets", words=where), language)
         pressure = say(Phrase("greatest pressure", angle=f"{math.degrees(least.pressure):.6g}°"), language)
         group = least.group
@@ -280,8 +281,7 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
             for e in extremes if math.isfinite(e.value)
         ]
         if away := dict.fromkeys(_at(turn, e) for e in extremes if math.isinf(e.value)):
-            places = word("list comma", language).join(away)
-            parts.insert(0, say(Phrase("grows without bound at", place=places), language))
+            parts.insert(0, say(Phrase("grows without bound at", place=listed([*away])), language))
         lines.append(_named(name, unit, language) + word("list semicolon", language).join(parts))
     return lines
 
@@ -344,9 +344,8 @@ def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
         also = f"{word('list comma', language)}{word(without, language)}" if without else ""
         lag = say(Phrase("in brackets", words=f"θ = {math.degrees(back[1]):.8g}°{also}"), language)
         said += f"{word('list comma', language)}K = {back[0]:.10g}{lag}"
-    listed = (f"{amount(e.value)} @ {_at(turn, e)}" for e in output.position.extremes)
-    places = word("list comma", language).join(listed)
-    return [head + said, f"  {word('limit position', language)}{colon}{places}"]
+    places = listed([f"{amount(e.value)} @ {_at(turn, e)}" for e in output.position.extremes])
+    return [head + said, f"  {word('limit position', language)}{colon}{say(places, language)}"]
 
 
 def _curves(turn: TurnStudy, language: str) -> list[str]:
@@ -364,8 +363,8 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
         if traced.unbounded:
             parts.append(word("unbounded", language))
         if traced.zeros:
-            places = word("list comma", language).join(_stretch(scene, *ends) for ends in traced.zero_stretches)
-            parts.append(f"{word('zero at', language)} {places}")
+            places = listed([_stretch(scene, *ends) for ends in traced.zero_stretches])
+            parts.append(f"{word('zero at', language)} {say(places, language)}")
         lines.append(_named(str(quantity), unit, language) + word("list semicolon", language).join(parts))
     return lines
 

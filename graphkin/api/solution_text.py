@@ -16,7 +16,7 @@ from graphkin.solver import listed_points, own_slides
 from graphkin.solver.forces import Forces
 from graphkin.study.quantities import link_quantities, parts_of, slide_quantities
 from graphkin.table import Array
-from graphkin.words import Phrase, Wording, say, word
+from graphkin.words import Phrase, Wording, listed, say, word
 
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved
@@ -48,7 +48,7 @@ def solution_tables(
             (heads, [[name, *(column[k] for column in columns)] for name, columns in rows if columns[0][k]], right)
             for heads, right, rows in tables
         ]
-        yield ", ".join(values), "" if status == "ok" else motion.said(k), here
+        yield say(listed(values), language), "" if status == "ok" else motion.said(k), here
 
 
 def _texts(*parts: Array) -> list[str]:

@@ -11,7 +11,7 @@ from graphkin.files import Json, OwnTables, Tables
 from graphkin.scene.scene import LARGEST_FILE, parsed
 from graphkin.scene.scene_tables import SCENE, Convention
 from graphkin.scene.tables import item_of
-from graphkin.words import LANGUAGES, Phrase, Wording
+from graphkin.words import LANGUAGES, Phrase, Wording, listed
 
 MOST_CHANGES = 500
 
@@ -40,7 +40,7 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
             _put(document, key, value)
         made = tomlkit.dumps(document).rstrip() + "\n"
     except (TOMLKitError, TypeError, ValueError, KeyError) as error:
-        raise CallError.of(", ".join(changes)[:80], "cannot be changed", error=str(error)[:180]) from None
+        raise CallError.of(listed([*changes]), "cannot be changed", error=str(error)[:180]) from None
     if len(made) > LARGEST_FILE:
         raise CallError.of(Phrase("the file"), "would be larger than kb", largest=LARGEST_FILE // 1000)
     return made

@@ -21,7 +21,7 @@ from graphkin.board.answers import answer, language_of
 from graphkin.board.shelf import Shelf
 from graphkin.errors import CallError, SceneError
 from graphkin.scene.scene import SceneLike, library, library_text, toml_text, written
-from graphkin.words import LANGUAGES, Phrase, from_others, say
+from graphkin.words import LANGUAGES, Phrase, from_others, listed, say
 
 if TYPE_CHECKING:
     import socket
@@ -65,7 +65,7 @@ def needs_live() -> None:
 
     missing = [name for name in ("starlette", "uvicorn", "websockets") if not have(name)]
     if missing:
-        raise CallError.of("open", "needs", 'pip install "graphkin[live]"', missing=', '.join(missing))
+        raise CallError.of("open", "needs", 'pip install "graphkin[live]"', missing=listed(missing))
 
 
 @cache

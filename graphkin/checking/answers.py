@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, some_of
 from graphkin.scene.asked import known_symbol, spelling_of
 from graphkin.scene.model import Mechanism, no_force
 from graphkin.scene.spelling import is_blank, plain_text, read_cell, read_way, unit_factor
@@ -134,7 +134,7 @@ def _answers(
         roles["person"] = roles.pop("id")
     if not values and not problems:
         problems.append(Problem(name, "no column is a quantity", "write symbols as heads for example v_d or",
-                                names=', '.join(sheet.heads)[:200]))
+                                names=some_of(sheet.heads)))
     rows = [(line, (*cells, *[""] * (len(sheet.heads) - len(cells)))) for line, cells in sheet.rows]
     places = {cells[roles["at"]] for _, cells in rows if "at" in roles} - {""}
     # numbers are driver values, unless all of them are names of positions

@@ -34,7 +34,7 @@ from graphkin.scene.symbol import Line, PointRef, Printed, Symbol, Value
 from graphkin.solver import Motion, listed_points
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.forces import forces_of, senses_along, value_of
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 
 RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
 SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong
@@ -170,7 +170,7 @@ def _following(
         for suspect, weight in judged.weighed(follows):
             if weight > chance:
                 names = tuple(s for s in others if any(map(moved, case.following({s: own[s]}, symbol))))
-                phrase = Phrase("slip follows", name=", ".join(map(str, names)))
+                phrase = Phrase("slip follows", name=listed([*map(str, names)]))
                 yield from [(replace(suspect, phrase=phrase, follows_from=names), weight)] if names else ()
 
 

@@ -19,7 +19,7 @@ from graphkin.plane import added_up
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, listed, say
 
 FULL = ("right", "within drafting accuracy", "right from own values")
 PARTS = ("equations", "drawing", "values")
@@ -99,7 +99,7 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
             scheme[symbol] = float(weight)
         else:
             problems.append(Problem(f"grading {name}", "is no part and no quantity of the", "or a symbol such as v_d",
-                                    names=', '.join(PARTS)))
+                                    names=listed([*PARTS])))
     if problems:
         raise CallError(*problems)
     return scheme

@@ -32,7 +32,7 @@ from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Motion, solve
 from graphkin.solver.forces import forces_of, senses_along, value_of
 from graphkin.solver.values import as_drawn, exact_values
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording, listed
 
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
 CANCELLING = ("motion", "position", "force")  # scopes of what may be a difference that leaves nothing
@@ -218,7 +218,7 @@ def _terms(plan: Plan, sheet: Sheet) -> Iterator[Alteration]:
     for role, symbols in names.items():
         groups = [(n,) for n in symbols] + ([tuple(symbols)] if len(symbols) > 1 else [])
         for group in groups:
-            shown = ", ".join(map(str, group))
+            shown = listed([*map(str, group)])
             for key, factor, share in (slip[1:] for slip in OF_TERMS if slip[0] == role):
                 slip = OwnValues(term=_times(group, factor))
                 yield Phrase(f"slip {role} {key}", name=shown), share / len(groups), partial(_drawn, plan, slip)
@@ -473,14 +473,14 @@ def _force_slips(motion: Motion) -> Iterator[Alteration]:
                     for mass in masses) if down else ()  # fmt: skip
     right = Loading(0j, masses, (*weights, *loads), loading.balance, springs=springs)
 
-    def slip(key: str, of: str | None, share: float, **changes: Sequence[object]) -> Alteration:
+    def slip(key: str, of: Wording | None, share: float, **changes: Sequence[object]) -> Alteration:
         wrong = replace(right, **{name: tuple(things) for name, things in changes.items()})  # type: ignore[arg-type]
         return Phrase(key, name=of), share, partial(_forces, motion, wrong)
 
     every = [tuple(mass.link for mass in masses)] if masses else []
     groups = [*((mass.link,) for mass in masses), *(every if len(masses) > 1 else ())]
     for links in groups:
-        shown, each = ", ".join(links), 1.0 / len(groups)
+        shown, each = listed(links), 1.0 / len(groups)
         if down:
             pulled = [load for load in right.loads if load not in weights or load.link not in links]
             yield slip("slip weight left out", shown, 0.15 * each, loads=pulled)

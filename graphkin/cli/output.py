@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from graphkin.errors import Problem, Unsolvable, printable
+from graphkin.errors import Problem, Unsolvable, printable, some_of
 from graphkin.files import json_text
 from graphkin.words import Phrase, Wording, say
 
@@ -135,7 +135,7 @@ def finish(given: Given, result: Result, paths: Iterable[Path] = (), files: bool
 def show_unused(heads: Sequence[str]) -> None:
     """Name the unused columns of a table."""
     if heads:
-        complain(Phrase("columns left alone", names=', '.join(heads)[:300]))
+        complain(Phrase("columns left alone", names=some_of(heads)))
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from graphkin.exchange.constructions import read_geogebra
 from graphkin.exchange.joint_lists import is_address, read_address, read_pyslvs, read_table, write_pyslvs
 from graphkin.exchange.linkages import read_linkage2, read_pylinkage, write_linkage2, write_pylinkage
 from graphkin.files import opened
-from graphkin.words import from_others
+from graphkin.words import from_others, listed
 
 __all__ = ["FRAME", "READ", "Bodies", "BodySlide", "is_address", "read_bodies", "write_bodies"]
 
@@ -37,7 +37,7 @@ def read_bodies(source: str) -> Bodies:
     path = Path(source)
     title, kind = path.stem, path.suffix.lower()
     if kind not in READ:
-        raise CallError.of(path.name[:100], "is of no program known here", "known", kind=kind, names=", ".join(READ))
+        raise CallError.of(path.name[:100], "is of no program known here", "known", kind=kind, names=listed([*READ]))
     try:
         with opened(path) as stream:
             data = stream.read(LARGEST + 1)
@@ -66,5 +66,5 @@ def write_bodies(bodies: Bodies, ending: str) -> str:
     """The text of a file for another program, by the ending of its name.  Raises CallError for an unknown one."""
     if ending not in WRITTEN:
         raise CallError.of("convert", "is of no program that is written here", "known", ending=ending,
-                           names=", ".join((".toml", *WRITTEN)))
+                           names=listed([".toml", *WRITTEN]))
     return WRITTEN[ending](bodies)

@@ -11,7 +11,7 @@ from graphkin import solver
 from graphkin.checking.readings import read_off, report_on
 from graphkin.checking.report import Report
 from graphkin.construction import execute
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean, some_of
 from graphkin.papers.documents import head_of
 from graphkin.papers.lesson import positions
 from graphkin.papers.paper import paper_plan
@@ -130,15 +130,15 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     }  # fmt: skip
     if "name" not in columns and "id" not in columns:
         raise CallError.of(str(students), "no column of names", "write a head name or id",
-                           names=', '.join(table.heads)[:200])
+                           names=some_of(table.heads))
     problems: list[Problem] = []
     head = table.heads[columns["scheme"]].strip().lower() if "scheme" in columns else ""
     may_be_groups = len(course) == 1 and head in GROUPS
     if head and "" in course and not may_be_groups:
         named = dict.fromkeys(cells[columns["scheme"]] for _, cells in table.rows if len(cells) > columns["scheme"])
-        if schemes := ", ".join(filter(None, named))[:80]:
+        if schemes := [*filter(None, named)]:
             found, wanted = (
-                Phrase("schemes without their data", schemes=schemes),
+                Phrase("schemes without their data", schemes=some_of(schemes)),
                 Phrase("give a row for each rows file.csv"),
             )
             raise CallError.of(f"{students}, {head}", found, wanted)

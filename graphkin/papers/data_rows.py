@@ -19,7 +19,7 @@ from itertools import permutations, product
 
 from graphkin.files import Tables
 from graphkin.papers.fresh_numbers import drivers_of
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 
 LONGEST = 200
 _OPERATORS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
@@ -160,7 +160,7 @@ def _values(texts: Mapping[str, str]) -> dict[str, float]:
         needs = {s: {n: plain[_bare(n)] for n in _names_in(text) if _bare(n) in plain} for s, text in left.items()}
         ready = [s for s in left if not set(needs[s].values()) & left.keys()]
         if not ready:
-            raise ValueError(Phrase("are given by one another", names=", ".join(left)))
+            raise ValueError(Phrase("are given by one another", names=listed([*left])))
         for short in ready:
             known = {n: values[column] for n, column in needs[short].items()}
             try:

@@ -22,7 +22,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.study.equations import context
 from graphkin.table import Table
-from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words import Phrase, clauses, listed, rich_text, say, word
 from graphkin.words.symbols import RichText, Words, rate, sign
 from graphkin.words.written import printed
 
@@ -178,7 +178,7 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
     title = word("speed title", language)
     name = race.scene.question.title_in(language)
     cores, processor, programs = race.machine
-    versions = ", ".join(f"{program} {version}" for program, version in programs.items())
+    versions = listed([f"{program} {version}" for program, version in programs.items()])
     facts = say(Phrase("speed facts", cores=cores, processor=processor, versions=versions, runs=race.repeats,
                        positions=race.count, places=race.places), language)  # fmt: skip
     wide = WIDTH - LEFT - RIGHT
@@ -244,7 +244,7 @@ def _lessons(race: Race, language: str) -> list[str]:
     lines = [say(lesson, language) for lesson in lessons(race)]
     lines.append(say(Phrase("speed hand", acts=race.acts), language))
     if race.skipped:
-        told = "; ".join(f"{peer} {say(why, language)}" for peer, why in race.skipped)
+        told = clauses([f"{peer} {say(why, language)}" for peer, why in race.skipped])
         lines.append(say(Phrase("skipped", methods=told), language))
     return lines
 

@@ -14,7 +14,7 @@ from graphkin.scene.model import Driver, Mechanism, StatedValues
 from graphkin.scene.scene_tables import Positions, StrokeStart
 from graphkin.scene.symbol import Printed, Symbol, centre_links, no_quantity, stated
 from graphkin.scene.tables import Units, path_name
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 
 if TYPE_CHECKING:
     # all the ways in which people write are loaded where somebody wrote otherwise than a symbol and its number
@@ -68,7 +68,7 @@ def known_symbol(where: str, text: str, scene: Mechanism | Reading, drawn: bool 
         keys = [pair.key for pair in scene.slides]
         on_outline = scene.contact_at and not scene.no_point(where, symbol.link)
         if symbol.is_rate_of_pair and symbol.pair not in keys and not on_outline:
-            known = Phrase("known here", names=", ".join(keys)) if keys else Phrase("nothing slides here")
+            known = Phrase("known here", names=listed(keys)) if keys else Phrase("nothing slides here")
             return [Problem(where, "there is no such sliding pair", known)]
         return [Problem(where, "is given by tables alone", "ask a drawing for", text=text,
                         instead=_drawn_instead(symbol, scene))]

@@ -35,7 +35,7 @@ from graphkin.scene.scene_tables import (
     no_position,
 )
 from graphkin.scene.tables import KeyPath, Units
-from graphkin.words import Phrase, Wording, links_named
+from graphkin.words import Phrase, Wording, links_named, listed
 
 AnyBody = TypeVar("AnyBody", Frame, Link)
 
@@ -47,7 +47,7 @@ def driver_tables(file: SceneTables) -> dict[str, Driver | DrivenSlide]:
     return {f"driver.{i}": table for i, table in enumerate(file.driver, 1)}
 
 
-def listed(refs: str | Sequence[str] | None) -> list[str]:
+def guides_of(refs: str | Sequence[str] | None) -> list[str]:
     """Names of guides, written alone or in a list."""
     return [] if refs is None else [refs] if isinstance(refs, str) else list(refs)
 
@@ -256,7 +256,7 @@ def check_own_points(reading: Reading) -> None:
         where, points = f"links.{name}", link.points
         if len(points) > 2:
             wanted = Phrase("two at most place in at x y", name=points[2], other=points[2])
-            say(f"{where}.points", "found names", wanted, count=len(points), name=", ".join(points[:6]))
+            say(f"{where}.points", "found names", wanted, count=len(points), name=listed(points[:6]))
         twice = sorted({p for p in points if points.count(p) > 1})
         if twice:
             say(f"{where}.points", "stands there twice", "a bar has two different points", name=twice[0])
@@ -285,7 +285,7 @@ def check_references(reading: Reading) -> None:
         circle = _circle_of_references(link)
         if circle:
             reading.say(f"links.{name}.at", "are placed from one another", "place one of them by x y or",
-                        points=", ".join(circle))
+                        points=listed(circle))
     for where, name, body in reading.bodies:
         for guide, rail in body.guides.items():
             here, aim = f"{where}.guides.{guide}", rail.toward
@@ -329,7 +329,7 @@ def sliding_pairs(reading: Reading) -> tuple[Pair, ...]:
                 where = f"links.{name}.angle_on"
                 reading.say(where, "stands without on", "say what the link slides on")
             continue
-        refs = listed(link.on)
+        refs = guides_of(link.on)
         angles = _angles(link.angle_on) or [0.0] * len(refs)
         if len(angles) != len(refs):
             reading.say(f"links.{name}.angle_on", "found for guides", "write one number for each guide",
@@ -369,7 +369,7 @@ def pins_in_slots(reading: Reading) -> tuple[Pair, ...]:
         unknown = reading.wrong(
             reading.no_link(f"{where}.of", pin.of) or reading.no_point_of(f"{where}.of", pin.of, point)
         )
-        for ref in listed(pin.slots):
+        for ref in guides_of(pin.slots):
             on, _, guide = ref.partition(".")
             problem = reading.no_guide(f"{where}.in", ref) or _pin_problem(where, point, pin, ref, reading, pins)
             if reading.wrong(problem):
@@ -431,8 +431,8 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
     A link that does not exist is taken for the link with the nearest name; without such a name nothing is returned,
     since the misspelt link may be the link that seems unheld.
     """
-    slides = [(name, ref) for name, link in reading.links.items() for ref in listed(link.on)]
-    slides += [(pin.of, ref) for pin in reading.pins.values() for ref in listed(pin.slots)]
+    slides = [(name, ref) for name, link in reading.links.items() for ref in guides_of(link.on)]
+    slides += [(pin.of, ref) for pin in reading.pins.values() for ref in guides_of(pin.slots)]
     touching = [pair.between for pair in reading.touching]
     sides = [tuple(ref.partition(".")[0] for ref in pair) for pair in (*slides, *touching)]
     known = reading.points
@@ -475,7 +475,7 @@ def with_carriages(reading: Reading) -> Reading:
 
 
 def _measured(reading: Reading, link: Link) -> Link:
-    refs, drawn = listed(link.on), reading.file.drawn
+    refs, drawn = guides_of(link.on), reading.file.drawn
     if len(link.points) != 2 or len(refs) != 1 or link.angle_on is not None:
         return link
     first, second = link.points
@@ -525,7 +525,7 @@ def with_bars(reading: Reading) -> Reading:
 
     taken, kept, bars = {*points}, dict[str, Pin](), dict[str, Link]()
     for point, pin in reading.pins.items():
-        where, refs = f"pins.{point}", listed(pin.slots)
+        where, refs = f"pins.{point}", guides_of(pin.slots)
         straight = [ref for ref in refs if arc_of(ref) is None]
         if straight:
             kept[point] = replace(pin, slots=straight)
@@ -546,7 +546,7 @@ def with_bars(reading: Reading) -> Reading:
 
     def on_bars(name: str, link: Link) -> Link:
         # of the circular slots that it runs in a link has the centres, as points in its own axes
-        refs, at = listed(link.on), {**link.at, **given[name]}
+        refs, at = guides_of(link.on), {**link.at, **given[name]}
         keys, angles = [arc_of(ref) for ref in refs], [*_angles(link.angle_on), *([0.0] * len(refs))]
         if any(keys):
             straight = [k for k, key in enumerate(keys) if key is None]

@@ -23,7 +23,7 @@ from graphkin.plane import degrees, direction
 from graphkin.scene.scene import file_text, files_named, library, parsed, safe_name, shelf
 from graphkin.scene.scene_tables import SMALLEST, List, Magnitude, NotNegative, Number, Place, SheetWishes, Text
 from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, plain, shown, tidy, xy
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase, Wording, listed
 
 SAME_BAR = 1e-3
 """Of its length: so much a bar may differ between its places."""
@@ -227,10 +227,10 @@ def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
     """The task of a table; None where it has problems, which are added to ``problems``."""
     kind = raw.pop("kind", None)
     if kind is None:
-        problems.append(Problem("design.kind", "is missing", "one of", names=", ".join(KINDS)))
+        problems.append(Problem("design.kind", "is missing", "one of", names=listed([*KINDS])))
         return None
     if not isinstance(kind, str) or kind not in KINDS:
-        near, known = did_you_mean(str(kind), KINDS), Phrase("the kinds are", names=", ".join(KINDS))
+        near, known = did_you_mean(str(kind), KINDS), Phrase("the kinds are", names=listed([*KINDS]))
         meant = Phrase("two sentences", first=near, second=known) if near.key == "did you mean" else known
         problems.append(Problem("design.kind", "found value", meant, value=shown(kind)))
         return None

@@ -15,14 +15,14 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, did_you_mean, some_of
 from graphkin.scene import model
 from graphkin.scene.bodies import Reading
 from graphkin.scene.laws import LiftPiece, MotionLaw, form_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver, DriverLaw, Positions
 from graphkin.scene.tables import Units, in_si, in_units
-from graphkin.words import Phrase, alternatives
+from graphkin.words import Phrase, alternatives, listed
 
 # -- reading -----------------------------------------------------------------------------------------------------------
 
@@ -137,7 +137,7 @@ def _angle_problems(where: str, driver: Driver, reading: Reading, lost: set[str]
             yield Problem(f"{where}.{name}", "link is redundant", "drive by a link that counts", what=link)
     if driver.link == frame and driver.link not in links:
         yield Problem(f"{where}.link", "link is the frame", "drive a moving link", name=driver.link,
-                      moving=", ".join(list(links)[:12]))
+                      moving=some_of([*links]))
     if driver.relative_to == driver.link:
         yield Problem(f"{where}.relative_to", "link is driven relative to itself",
                       "name another link or leave it out for", link=driver.link)
@@ -202,7 +202,7 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     if not pairs and what not in reading.points:
         reading.say(here, "there is no sliding link", did_you_mean(what, known), what=what)
     elif not pairs:
-        drive = Phrase("drive a sliding pair", pairs=", ".join(known)) if known else Phrase("there is no sliding pair")
+        drive = Phrase("drive a sliding pair", pairs=listed(known)) if known else Phrase("there is no sliding pair")
         reading.say(here, "link slides on nothing", drive, what=what)
     elif not keys:
         name, rail = ("slide", on) if on and on not in pairs.values() else ("relative_to", driver.relative_to)
@@ -306,7 +306,7 @@ def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> Mot
     }
     given = [name for name, there in ways.items() if there]
     if len(given) != 1:
-        found = Phrase("says its motion by", ways=", ".join(given)) if given else Phrase("says nothing")
+        found = Phrase("says its motion by", ways=listed(given)) if given else Phrase("says nothing")
         reading.say(where, found, "write from and to or pieces or a table")
         return None
     if given == ["table"]:

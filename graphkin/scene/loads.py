@@ -15,7 +15,7 @@ from graphkin.scene.bodies import Reading
 from graphkin.scene.model import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPhase, Mass, Spring
 from graphkin.scene.tables import in_si
-from graphkin.words import Phrase, alternatives
+from graphkin.words import Phrase, alternatives, listed
 
 TURN = math.tau * (1 + 1e-12)
 ACTING = ("masses", "loads", "springs")
@@ -138,10 +138,10 @@ def _spring(reading: Reading, name: str, table: Spring) -> SpringOn | None:
     if name in reading.file.loads:
         say(where, "a load is called too", "another name both would be p_", name=name)
     if len(table.between) != 2 or table.between[0] == table.between[1]:
-        given = ", ".join(table.between) or Phrase("nothing")
+        given = listed(table.between) or Phrase("nothing")
         say(f"{where}.between", "found value", "two different points", value=given)
     elif table.links is not None and len(table.links) != 2:
-        given = ", ".join(table.links) or Phrase("nothing")
+        given = listed(table.links) or Phrase("nothing")
         say(f"{where}.links", "found value", "two links one for each point", value=given)
     if len(reading.problems) > known:
         return None

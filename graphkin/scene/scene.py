@@ -45,7 +45,7 @@ from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import SCENE, Guide, Link, SceneTables
 from graphkin.scene.tables import file_table_by_name, path_name, path_of_key, plain, tidy, value_at
 from graphkin.scene.touching import cams_of, discs_of, touching_of
-from graphkin.words import Phrase, Wording, from_others
+from graphkin.words import Phrase, Wording, from_others, listed
 
 # -- files -------------------------------------------------------------------------------------------------------------
 
@@ -584,7 +584,7 @@ def put(made: OwnTables, key: str, value: object) -> Problem | None:
     if path is not None:
         table, old = value_at(made, path[:-1]), value_at(made, path)
         if isinstance(table, dict) and isinstance(old, dict | list) and not isinstance(value, dict | list):
-            inside = ", ".join(map(str, old if isinstance(old, dict) else ("x", "y")))
+            inside = listed([*old] if isinstance(old, dict) else ["x", "y"])
             return Problem(key, "is a table or a list not a", "add one of", inside=inside)
         table[path[-1]] = value
         return None

@@ -19,7 +19,7 @@ from pydantic import Field as Rule
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.laws import LAWS
 from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key
-from graphkin.words import LANGUAGES, Phrase
+from graphkin.words import LANGUAGES, Phrase, listed
 
 SMALLEST, LARGEST = 1e-15, 1e15
 """The smallest length, and the smallest rate that is not 0; the largest number."""
@@ -233,7 +233,7 @@ class LawPiece(FileTable):
             yield Problem(where, "has both rise and fall", "give one of them or none for a")
         elif moves and self.by is None:
             *names, last = (f'"{name}"' for name in LAWS)
-            yield Problem(where, "does not say its law", "by is one law", names=", ".join(names), last=last)
+            yield Problem(where, "does not say its law", "by is one law", names=listed(names), last=last)
         elif self.by is not None and not moves:
             yield Problem(where, "has by without rise or fall", "a dwell has no law", by=self.by)
 

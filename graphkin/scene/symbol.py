@@ -18,7 +18,7 @@ from functools import cached_property
 from typing import Literal, NamedTuple
 
 from graphkin.scene.tables import MEASURES, Measure, Unit, Units
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 
 Value = complex | float
 """What a quantity is: a vector of the plane, or a number."""
@@ -372,7 +372,7 @@ _MISSING = {
 
 def no_quantity(text: str) -> Phrase:
     """The sentence on a name that names no quantity."""
-    known = ", ".join(kind.example.split(",")[0] for kind in KINDS.values())
+    known = listed([kind.example.split(",")[0] for kind in KINDS.values()])
     return Phrase("is no quantity known are", text=text, names=known)
 
 

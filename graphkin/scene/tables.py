@@ -44,7 +44,7 @@ from pydantic_core.core_schema import no_info_plain_validator_function
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import Json, OwnTables, Tables
-from graphkin.words import Phrase, Wording, area, from_others, say
+from graphkin.words import Phrase, Wording, area, from_others, listed, say
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -550,7 +550,7 @@ class Form(Generic[AnyTable]):
             return found, wanted
         if kind == "literal_error":
             choices = re.findall(r"'([^']*)'", ctx["expected"])
-            names = ", ".join(f'"{c}"' for c in choices) or str(ctx["expected"])
+            names = listed([f'"{c}"' for c in choices] or [str(ctx["expected"])])
             wanted = Phrase("one of is possible" if len(choices) > 1 else "is possible", names=names)
             near = did_you_mean(value[:60], choices) if isinstance(value, str) else wanted
             is_near = near.key == "did you mean"

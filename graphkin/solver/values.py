@@ -30,7 +30,7 @@ from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
 from graphkin.solver.path.driver_range import DriverRange, range_of
 from graphkin.solver.quantities import value_of_symbol
 from graphkin.structure import Dyad, LargerGroup, Structure, links_for, part_of
-from graphkin.words import Phrase, Wording, say
+from graphkin.words import Phrase, Wording, listed, say
 
 if TYPE_CHECKING:
     from graphkin.solver.forces import Forces
@@ -110,7 +110,7 @@ def forces_here(motion: Motion) -> Forces:
             raise Unsolvable("dead point", Problem(spring.where, "its two points coincide in this position so",
                                                    "move the driver off this position"))
     if not forces.ok[0]:
-        drivers = ", ".join(d.key for d in motion.scene.drivers)
+        drivers = listed([d.key for d in motion.scene.drivers])
         raise Unsolvable("dead point", Problem(Phrase("driver of driver", driver=drivers),
                                                "the balance does no work in this position of nothing",
                                                "move the driver or ask for the motion alone"))

@@ -484,7 +484,7 @@ def _with_starts(structure: Structure) -> Structure:
         except Unsolvable:
             continue
         return whole
-    names = ", ".join(dict.fromkeys(r.name for g in groups for r in g.rolling))
+    names = listed([*dict.fromkeys(r.name for g in groups for r in g.rolling)])
     raise Unsolvable("mobility", Problem(names, "nothing tells where what rolls here stands",
                                          "write the start of a link that rolls"))
 
@@ -533,20 +533,21 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
 def _wrong_count(structure: Structure) -> Problem:
     """The sentences on a mechanism with more or fewer drivers than its mobility: the count, and the remedy."""
     scene, mobility = structure.scene, structure.mobility
-    given, names = len(scene.drivers), ", ".join(d.key for d in scene.drivers)
+    given = len(scene.drivers)
     higher = f" - {mobility.higher}" if mobility.higher else ""
     count = f"F = 3*{mobility.links} - 2*{mobility.lower}{higher} = {mobility.value}"
     wanted: list[Wording] = [Phrase("a mechanism of mobility needs as many drivers", mobility=mobility.value)]
     if given > mobility.value > 0:
+        names = listed([driver.key for driver in scene.drivers])
         wanted = [Phrase("too many drivers a mechanism of mobility takes", names=names, mobility=mobility.value)]
     idle = [link.name for link in scene.links if link.redundant]
     if idle and mobility.value > given:
-        wanted.append(Phrase(about("marked redundant is not counted", idle), links=", ".join(idle)))
+        wanted.append(Phrase(about("marked redundant is not counted", idle), links=listed(idle)))
     if given == 0:
         wanted.append(Phrase("write in the file driver with"))
     if mobility.value <= 0:
         loop = _sliding_loop(structure)
-        more = Phrase("gruebler's count fails here links slide on each", loop=", ".join(loop)) if loop else None
+        more = Phrase("gruebler's count fails here links slide on each", loop=listed(loop)) if loop else None
         wanted = [more or Phrase("it is a structure no driver can move")]
     counted = Phrase("drivers counted" if given > 1 else "driver counted", count=given)
     drivers = counted if given else Phrase("no driver")
@@ -585,7 +586,7 @@ def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapp
     loop = _sliding_loop(structure)
     wanted = Phrase("each part of the mechanism needs as many")
     if loop:
-        wanted = Phrase("links slide on each other in a closed", loop=', '.join(loop))
+        wanted = Phrase("links slide on each other in a closed", loop=listed(loop))
     held = names(u for i in over for u in unknowns[i])
     where = Phrase("status mobility")
     return Problem(where, "links held too much links left free", wanted, names=held, other=names(free))

@@ -17,7 +17,7 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import HigherPair, LawCam, Pair
 from graphkin.scene.symbol import Symbol, centre_links
-from graphkin.words import Phrase, bodies_named, joined, links_named
+from graphkin.words import Phrase, bodies_named, joined, links_named, listed
 
 
 @dataclass(frozen=True)
@@ -387,7 +387,7 @@ def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
     inside = {n for body in dyad.bodies for n in body.links}
     pair = next((pair for pair in structure.touching if pair.block in inside and not pair.carrier), None)
     if pair is not None:
-        return Phrase("contact of links", contact=pair.name, links=', '.join(pair.bodies))
+        return Phrase("contact of links", contact=pair.name, links=listed(pair.bodies))
     return dyad.named
 
 

@@ -23,7 +23,7 @@ from graphkin.errors import CallError
 from graphkin.scene.pairs import HigherPair, Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Dyad, Structure
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 
 Spot = tuple[str, complex]
 """A link, and a place in its own axes (m)."""
@@ -152,7 +152,7 @@ def sliding_pair(slides: Sequence[Pair], symbol: Symbol) -> Pair:
     """The sliding pair or pin in slot, of several, that a symbol names.  Raises CallError where there is none."""
     named = next((pair for pair in slides if pair.key == symbol.pair), None)
     if named is None:
-        known = ", ".join(pair.key for pair in slides)
-        wanted = Phrase("known here", names=known) if known else Phrase("nothing slides here")
+        known = [pair.key for pair in slides]
+        wanted = Phrase("known here", names=listed(known)) if known else Phrase("nothing slides here")
         raise CallError.of(str(symbol), "there is no such sliding pair", wanted)
     return named

@@ -27,7 +27,7 @@ from graphkin.scene.scene import put
 from graphkin.scene.tables import path_of_key, value_at
 from graphkin.solver.algebra.pose import turned
 from graphkin.table import table_of, with_points
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 
 Value = float | str
 MOST_DESIGNS = 10_000_000
@@ -270,7 +270,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Number
         beside = dict.fromkeys(part for mechanism in read for part in changed_beside(written, mechanism))
         if beside:
             raise CallError.of(f"designs {key}", "changes more than dimensions", "sweep over it graphkin.sweep designs",
-                               beside=", ".join(beside))
+                               beside=listed([*beside]))
     own = dimensions(scene)
 
     def numbers(values: Mapping[str, Reals]) -> dict[Dimension, Complexes]:

@@ -34,7 +34,7 @@ from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
 from graphkin.study.graphical import drawn, on_paper, ordinate_chains
 from graphkin.study.quantities import course_of, rates_of
 from graphkin.study.turn import Output, TurnStudy
-from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words import Phrase, listed, rich_text, say, word
 from graphkin.words.symbols import Words, sign
 
 LaidOver = Mapping[Symbol, Sequence[tuple[float, float]]]
@@ -155,7 +155,7 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[Words]:
         facts.append(rich_text(Phrase("K is", ratio=charts.number(back[0])), language))
     drivers = sorted(e.driver for e in (*output.lows, *output.highs))
     places = [_said(value, scene.unit_of(scene.drivers[0])) for value in drivers]
-    facts.append(say(Phrase("limits at", places=", ".join(places)), language))
+    facts.append(say(Phrase("limits at", places=listed(places)), language))
     return facts
 
 

@@ -31,7 +31,7 @@ from graphkin.solver import DriverRange
 from graphkin.study.charts import lettered, number, title_of
 from graphkin.study.quantities import course_of
 from graphkin.table import Column, Table
-from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words import Phrase, listed, rich_text, say, word
 from graphkin.words.symbols import Words, sign, spaced
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbo
             if way == "derivative"
             else Phrase("is a position integrate a rate of it")
         )
-        raise CallError.of(subject, says, "one of", names=', '.join(map(str, chain)))
+        raise CallError.of(subject, says, "one of", names=listed([*map(str, chain)]))
     _, rate, second = scene.drivers[0].values
     if rate == 0.0 or second != 0.0:
         raise CallError.of(subject, "the driver does not move evenly", "give it a rate and no second rate")

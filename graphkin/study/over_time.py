@@ -25,7 +25,7 @@ from graphkin.study.extremes import GROWS, Extreme
 from graphkin.study.quantities import course_of, link_quantities, slide_quantities
 from graphkin.study.turn import output_links, output_slides
 from graphkin.study.turn_data import known
-from graphkin.words import Phrase, rich_text, say, word
+from graphkin.words import Phrase, listed, rich_text, say, word
 from graphkin.words.symbols import RichText
 
 Array = NDArray[np.float64]
@@ -169,7 +169,7 @@ class TimeStudy:
 
     def _fact(self, language: str) -> str:
         """The drivers, and the span of time."""
-        drives = ", ".join(d.key for d in self.axis.scene.drivers if d.law is not None)
+        drives = listed([d.key for d in self.axis.scene.drivers if d.law is not None])
         begin, end = map(number, self.axis.ends)
         return say(Phrase("over the time", drivers=drives, begin=begin, end=end), language)
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache, reduce
+from functools import cache
 from pathlib import Path
 from string import Formatter
 from typing import Any, TypeAlias
@@ -314,7 +314,11 @@ def joined(key: str, parts: Iterable[object]) -> Any:
     >>> str(joined("one and other", "ABC"))
     'A and B and C'
     """
-    return reduce(lambda before, part: Phrase(key, first=before, second=part), parts)
+    said = [*parts]
+    while len(said) > 1:  # two by two: a thousand names are ten phrases deep
+        pairs = zip(said[::2], said[1::2], strict=False)
+        said = [*(Phrase(key, first=one, second=two) for one, two in pairs), *said[len(said) & ~1 :]]
+    return said[0]
 
 
 def in_turn(sentences: Sequence[Phrase]) -> Phrase:
@@ -324,12 +328,12 @@ def in_turn(sentences: Sequence[Phrase]) -> Phrase:
 
 
 def listed(names: Sequence[object]) -> Any:
-    """Names or phrases, at least one, as an argument of a sentence: a list with the marks of its language.
+    """Names or phrases as an argument of a sentence: a list with the marks of its language; "" where there is none.
 
     >>> say(Phrase("points", link="2", points=listed(["B", "C", "D"])))
     'mark B, C, D on link 2'
     """
-    return joined("listed", names)
+    return joined("listed", names) if names else ""
 
 
 def links_named(names: Sequence[object]) -> Phrase:

@@ -31,7 +31,7 @@ from graphkin.checking.slip_likelihood import Judged
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import execute, plan
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean, some_of
 from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
@@ -288,7 +288,7 @@ def _problems(
         return {"": scene}
     if variants is None:
         raise CallError.of("variant", "the answers name variants", "give the folder of the problem set variants",
-                           named=', '.join(named)[:80])
+                           named=some_of(named))
     scenes: dict[str, SceneLike] = {}
     if isinstance(variants, Mapping):
         scenes = {str(name): one for name, one in variants.items()}

@@ -49,7 +49,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import solved_here
-from graphkin.words import Phrase, languages
+from graphkin.words import Phrase, languages, listed
 
 if TYPE_CHECKING:
     from graphkin.table import Table
@@ -104,8 +104,8 @@ class Handout(OfScene, Result):
     @property
     def notes(self) -> tuple[Phrase, ...]:
         """Deviations from the request: quantities of other positions."""
-        names = ", ".join(map(str, self.elsewhere))
-        return (Phrase("papers leave out", names=names),) if names else ()
+        names = [*map(str, self.elsewhere)]
+        return (Phrase("papers leave out", names=listed(names)),) if names else ()
 
     @cached_property
     def files(self) -> Mapping[str, bytes]:
@@ -238,7 +238,7 @@ def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
     """Names of learning platforms, each once.  Raises CallError for an unknown one."""
     if isinstance(exports, str):
         raise CallError.of("export", "is a text", "give a list", formats=exports)
-    named = as_list("export", exports, Phrase("give a list of", names=", ".join(PLATFORMS)))
+    named = as_list("export", exports, Phrase("give a list of", names=listed([*PLATFORMS])))
     if wrong := unknown_words("export", named, PLATFORMS):
         raise CallError(*wrong)
     return tuple(dict.fromkeys(named))

@@ -24,7 +24,7 @@ from graphkin.api.arguments import (
     whole_number,
 )
 from graphkin.api.results import OfScene, Result, named
-from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, printable
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, printable, some_of
 from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of, write_files
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.data_rows import columns_of, replaced
@@ -265,7 +265,7 @@ def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, dict[i
     data, others = columns_of(source, table.heads)
     if not data:
         raise CallError.of(str(rows), "no column is a datum of the scene",
-                           "write heads like links.1.length o4b n2 or phi1", names=', '.join(table.heads)[:200])
+                           "write heads like links.1.length o4b n2 or phi1", names=some_of(table.heads))
     return table, data, others
 
 

@@ -16,8 +16,8 @@ from graphkin.plane import Pose
 from graphkin.scene.scene_tables import Diagram
 from graphkin.scene.symbol import KINDS, PointRef, Symbol
 from graphkin.scene.tables import Units
-from graphkin.words import Phrase, gaps_of, listed, say, sense_of, word
-from graphkin.words.symbols import RichText, Words, rate, sign, spaced
+from graphkin.words import Phrase, clauses, gaps_of, listed, say, sense_of, word
+from graphkin.words.symbols import RichText, Words, rate, sign
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, printed, product, true_minus
 
 Order = Literal["velocity", "acceleration"]
@@ -315,7 +315,7 @@ class Step(OnPaper):
         if (source or part) in ("point", "points"):
             return PointNames((value,) if isinstance(value, str) else value) if value else ""
         if isinstance(value, tuple) and not isinstance(value, PointRef):
-            return ", ".join(value)
+            return listed(value)
         return on_paper(value) if isinstance(value, float) else value or ""
 
     @property
@@ -795,11 +795,11 @@ class Superposed(Step):
 
     def gap(self, name: str) -> object:
         """The value of a gap in its sentence: the rates, or the gaps of the trials."""
-        open_at = ", ".join(f"{name} ({direction})" for name, direction in zip(self.closing, self.ways, strict=True))
-        gaps = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in self.apart))
+        open_at = listed([f"{name} ({direction})" for name, direction in zip(self.closing, self.ways, strict=True)])
+        gaps = clauses([listed([true_minus(f"{mm:.2f}") for mm in row]) for row in self.apart])
         of_links = [(rate(found.kind, found.link), value) for found, value in self.found]
-        rates = spaced(", ", (name + f" = {printed(amount(value, 5))}" for name, value in of_links))
-        names = spaced(", ", (name for name, _ in of_links))
+        rates = listed([name + f" = {printed(amount(value, 5))}" for name, value in of_links])
+        names = listed([name for name, _ in of_links])
         told = {"open_at": open_at, "apart": gaps, "names": names, "rates": rates, **_assumed(self.found)}
         return told[name]
 

@@ -41,7 +41,7 @@ from graphkin.scene.model import PlacedLink
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, LargerGroup, Structure
-from graphkin.words import Phrase
+from graphkin.words import Phrase, listed
 
 if TYPE_CHECKING:
     from graphkin.construction.polygons.group_plan import GroupPlan
@@ -489,6 +489,6 @@ def _guide_of(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str
     seen = {ref.link for ref in (symbol.of, symbol.to) if ref}
     if symbol.to and any(seen <= {*group.members} for group in plot.structure.larger_groups):
         return symbol.to.link  # links of a group that are drawn as one, seen from one of them
-    known = ", ".join(s.key for s in plot.structure.slides)
-    wanted = Phrase("known are", names=known) if known else Phrase("this mechanism has none")
+    known = [s.key for s in plot.structure.slides]
+    wanted = Phrase("known are", names=listed(known)) if known else Phrase("this mechanism has none")
     raise CallError.of(str(symbol), "these two points do not lie on the", wanted)

@@ -44,7 +44,7 @@ from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, Dyad
-from graphkin.words import Phrase
+from graphkin.words import Phrase, links_named
 
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
@@ -192,7 +192,7 @@ def _by_hand(
     for change in step * np.eye(len(values)):
         low, high = (TrialDrawing.of(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
         if low is None or high is None:
-            where = Phrase("links", links=", ".join(reduced.group.links))
+            where = links_named(reduced.group.links)
             raise Unsolvable("dead point", Problem(where, "the trial drawing is at a dead point"))
         slopes.append((high.gaps - low.gaps) / (2 * step))
     return np.array(gaps), np.array(slopes).T

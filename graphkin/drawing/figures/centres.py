@@ -68,7 +68,7 @@ from graphkin.drawing.text import SMALLEST, plain, rich, runs_width, stacked, te
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, languages, rich_text, word
+from graphkin.words import Phrase, languages, listed, rich_text, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 
 
@@ -432,8 +432,7 @@ def _report(
     lines: list[Words] = []
     for each in languages(language):
         for centre in centres.indeterminate:
-            kept = ", ".join(centres.kept)
-            by = Phrase(f"centre {centre.way}", centre=centre.pair, kept=kept) if centre.way else None
+            by = Phrase(f"centre {centre.way}", centre=centre.pair, kept=listed(centres.kept)) if centre.way else None
             sentences = [_rich(one, each, letters) for one in (centre.why, by) if one is not None]
             lines.append(spaced(word("sentence joint", each), sentences))
     head = [term("velocities by centres", language)] if velocities else []

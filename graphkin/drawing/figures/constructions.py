@@ -397,8 +397,8 @@ def cam_given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
         lift = _lift(scene, cam, piece.high - piece.low)
         pieces.append(f"{said} {_law(piece.by, language)}"
                       + (f" {'+' if lift > 0 else '−'}{number(abs(lift))}{unit}" if piece.by else ""))  # fmt: skip
-    comma = word("list comma", language)
-    return _given(scene, cam, language) + ("；" if comma == "，" else "; ") + comma.join(pieces)
+    comma, semicolon = (word(f"list {mark}", language) for mark in ("comma", "semicolon"))
+    return _given(scene, cam, language) + semicolon + comma.join(pieces)
 
 
 def _law(by: str, language: str) -> str:

@@ -171,12 +171,12 @@ def _page(
     page: FigurePage, some: Sequence[tuple[str, Sheet]], shown: Sequence[DiagramName], size: tuple[float, float]
 ) -> Drawing:
     page = replace(page, sheet=some[0][1])
-    colon = punctuation("colon", page.language)
+    colon, names = punctuation("colon", page.language), [name for name, _ in some]
     scales = [page.term(FIGURE_WORDS[diagram]) + colon + page.scale(diagram) for diagram in shown]
     return page.drawing(
         spaced(";  ", scales), row(*(_position(page, name, sheet, shown, size) for name, sheet in some), gap=GUTTER),
         "",
-        title="polygons", said=", ".join(name for name, _ in some), metadata={"positions": [name for name, _ in some]},
+        title="polygons", said=punctuation("symbol comma", page.language).join(names), metadata={"positions": names},
     )  # fmt: skip
 
 

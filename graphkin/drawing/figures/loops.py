@@ -29,7 +29,7 @@ from graphkin.drawing.text import rich, runs_width
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.structure.loops import Loop, LoopBlock, loops_in_numbers
-from graphkin.words import Neutral, Phrase, in_all, languages, say
+from graphkin.words import Neutral, Phrase, in_all, languages, listed, say
 from graphkin.words.symbols import Words, sign, spaced
 
 PANEL = (84.0, 62.0)  # width and least height of a polygon's panel (mm)
@@ -53,7 +53,7 @@ def loops_figure(page: FigurePage) -> Drawing | None:
     if not blocks:
         return None
     scale, loops = _scale(blocks), [(block, loop) for block in blocks for loop in block.loops]
-    heads = (Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=", ".join(loop.points))
+    heads = (Phrase("loop heading", loop=loop.name, links=listed(loop.links), equation=listed(loop.points))
              for _, loop in loops)  # fmt: skip
     return page.drawing(
         page.at_drivers(page.term("loops")), column(*(_loop(page, *loop, scale) for loop in loops), gap=5.0),
@@ -168,7 +168,7 @@ def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[Wor
     """The lines of text of a loop, and whether each is bold."""
     scene = page.sheet.scene
     sum_ = Neutral(equation(loop, page.convention))
-    head = Phrase("loop heading", loop=loop.name, links=", ".join(loop.links), equation=sum_)
+    head = Phrase("loop heading", loop=loop.name, links=listed(loop.links), equation=sum_)
     yield from ((text, True) for text in in_all(head, page.language))
     x, y = projections(loop, block, scene)
     yield from (("x:  " + x, False), ("y:  " + y, False))

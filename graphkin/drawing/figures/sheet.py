@@ -297,7 +297,7 @@ def _held(page: FigurePage, before: Remainder, after: Remainder) -> str:
         FIGURE_WORDS["acceleration"]: len(before.coriolis) - len(after.coriolis),
     }  # fmt: skip
     shown = [page.term(kind) for kind, count in kinds.items() if count]
-    return punctuation("list comma", page.language).join(shown)
+    return punctuation("symbol comma", page.language).join(shown)
 
 
 def heading(page: FigurePage, frame: Box) -> Piece:

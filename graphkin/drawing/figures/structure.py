@@ -27,7 +27,7 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.pairs import Pair
 from graphkin.structure import Driven, Element, LargerGroup, Structure, replacement_told
-from graphkin.words import Phrase, class_of, languages, rich_text, say
+from graphkin.words import Phrase, class_of, languages, listed, rich_text, say
 from graphkin.words.symbols import RichText, Words, sign, spaced
 
 DIAGRAM = (96.0, 84.0)  # mm, room of the numbered diagram
@@ -109,7 +109,7 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[Words, bool]]:
                 lines.append((say(hinge, each), False))
         lines += [(rich_text(phrase, each), False) for phrase in replacement_told(structure)]
         if idle:
-            lines.append((say(Phrase("structure redundant", links=", ".join(idle)), each), False))
+            lines.append((say(Phrase("structure redundant", links=listed(idle)), each), False))
         order = _class(structure)
         if order is not None:
             lines.append((say(Phrase("structure class", order=class_of(order)), each), True))
@@ -124,16 +124,16 @@ def _class(structure: Structure) -> int | None:
 
 def _taken_apart(page: FigurePage, structure: Structure) -> Block:
     """The groups in the reverse order of solution, the drivers last, each in a panel of its own."""
-    names = ", ".join(d.key for d in structure.scene.drivers)
+    keys = [driver.key for driver in structure.scene.drivers]
     order = _class(structure) if structure.groups else None
-    drivers = page.said("structure ungrouped", links=names) if order is None else (
-        page.said("structure driven by", links=names, order=class_of(order)))
+    drivers = page.said("structure ungrouped", links=listed(keys)) if order is None else (
+        page.said("structure driven by", links=listed(keys), order=class_of(order)))
     shown: list[Sequence[Element]] = [(group,) for group in reversed(structure.groups)]
     if structure.driven:  # a driver inside a group has no part of its own
         shown.append(structure.driven)
     parts = []
     for number, elements in enumerate(shown, 1):
-        tag = f"{names.replace('/', '-').replace(', ', '-')}-{number}"
+        tag = f"{'-'.join(keys).replace('/', '-')}-{number}"
         part = panel(*PART, partial(_group, page.sheet, elements, page.letters, tag))
         named = [element for element in elements if not isinstance(element, Driven)
                  or element.link in page.sheet.scene.by_name]  # without blocks that replace a pair  # fmt: skip
@@ -150,7 +150,7 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
         group = Phrase(
             "structure group", links=element.named, order=class_of(element.order),
             kind="" if isinstance(element, LargerGroup) else f" {element.kind}",
-            inner=", ".join(p.key for p in inner), outer=", ".join(p.key for p in outer),
+            inner=listed([p.key for p in inner]), outer=listed([p.key for p in outer]),
         )  # fmt: skip
         return say(group, language)
     driver = element.driver

@@ -13,6 +13,7 @@ from graphkin.drawing.write.pdf import SvgPage, pdf_bytes, png_bytes
 from graphkin.drawing.write.svg import svg_bytes, svg_element
 from graphkin.errors import CallError
 from graphkin.files import path_of, whole_file
+from graphkin.words import listed
 
 FORMATS = ("svg", "pdf", "png", "dxf")
 TEXTS = ("glyphs", "outlines")
@@ -36,9 +37,9 @@ class Kept:
         MissingFont : of PDF and PNG, if it has Chinese text and the machine has no face for it
         """
         if not isinstance(format, str) or format not in FORMATS:
-            raise CallError.of("format", f'"{format!s:.60}"', "known here", names=', '.join(FORMATS))
+            raise CallError.of("format", f'"{format!s:.60}"', "known here", names=listed(FORMATS))
         if not isinstance(text, str) or text not in TEXTS:
-            raise CallError.of("text", f'"{text!s:.60}"', "known here", names=', '.join(TEXTS))
+            raise CallError.of("text", f'"{text!s:.60}"', "known here", names=listed(TEXTS))
         if format == "svg":
             return self._svg(text == "outlines")
         if format == "dxf":

@@ -18,7 +18,7 @@ from graphkin.solver.compiled.engine import SINGULAR, State, closes, positions
 from graphkin.solver.drivers import meant_value
 from graphkin.solver.sentences import dyad_words, group_words, lies_at
 from graphkin.structure import Dyad, LargerGroup, Structure
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase, Wording, listed
 
 if TYPE_CHECKING:
     from graphkin.solver.algebra.larger_groups import GroupSolved
@@ -61,7 +61,7 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     for element in (e for e in structure.driven if not e.explicit):
         if element.driver.rolls:
             raise Unsolvable("dead point", Problem(element.named, Phrase("dead points are found where nothing rolls")))
-        where = Phrase("cams named", cams=", ".join(e.lifted.link for e in structure.driven if e.lifted))
+        where = Phrase("cams named", cams=listed([e.lifted.link for e in structure.driven if e.lifted]))
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))
     turning = structure.scene.drivers[0].turns
     wide = (1 + MARGIN) * structure.scene.drivers[0].span(structure.scene.size) * (math.pi if turning else FAR)
