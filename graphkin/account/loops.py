@@ -234,6 +234,7 @@ class LoopText:
     scene: Mechanism
     blocks: tuple[LoopBlock, ...]
     language: str = "en"
+    convention: Convention = "chinese"
     rolling: bool = False
 
     @cached_property
@@ -273,12 +274,12 @@ class LoopText:
     @property
     def plain(self) -> str:
         """The loops as lines of text."""
-        units, letters = self.scene.units, self.scene.question.sheet.convention
+        units = self.scene.units
         units_named = Phrase("explained unit", length=units.length, velocity=units.of("velocity").text)
         lines = [say(units_named, self.language), ""] if self.blocks else []
         for block in self.blocks:
             for loop in block.loops:
-                sum_ = equation(loop, letters)
+                sum_ = equation(loop, self.convention)
                 head = Phrase("loop heading", loop=loop.name, links=listed(loop.links), equation=sum_)
                 x, y = projections(loop, block, self.scene)
                 lines += [say(head, self.language), f"  x: {plain(x)}", f"  y: {plain(y)}"]
@@ -302,15 +303,15 @@ class LoopText:
     def latex(self) -> str:
         """The loops as LaTeX, a formula a line."""
         lines: list[str] = []
-        letters = self.scene.question.sheet.convention
         for block in self.blocks:
             for loop in block.loops:
-                lines += [as_latex(equation(loop, letters)), *map(as_latex, projections(loop, block, self.scene))]
+                formulas = equation(loop, self.convention), *projections(loop, block, self.scene)
+                lines += map(as_latex, formulas)
             lines += [matrix_latex(matrix) for matrix in matrices(block, self.scene)]
         return "\n".join(rf"\[ {line} \]" for line in lines)
 
 
-def loops_text(motion: Motion, language: str) -> LoopText:
+def loops_text(motion: Motion, language: str, convention: Convention) -> LoopText:
     """The loops at the first solved position of a motion.
 
     Raises
@@ -328,4 +329,4 @@ def loops_text(motion: Motion, language: str) -> LoopText:
     structure = motion.structure
     rolling = any(not e.driver.given for e in structure.driven) or any(g.rolling for g in structure.larger_groups)
     left = any(not in_loops.issuperset(group.links) for group in structure.groups)
-    return LoopText(motion.scene, blocks, language, rolling and (left or not blocks))
+    return LoopText(motion.scene, blocks, language, convention, rolling and (left or not blocks))

@@ -243,6 +243,13 @@ def _driver(scene: Mechanism, name: str) -> Driver:
     raise CallError.of(f"at {name}", "no driver of that name", did_you_mean(name, [d.key for d in scene.drivers]))
 
 
+def in_convention(scene: Mechanism, convention: str | None) -> Mechanism:
+    """The scene with the letters and marks of a convention; its own if None.  Raises CallError for an unknown one."""
+    known_words(convention=convention)
+    sheet = replace(scene.question.sheet, convention=convention) if convention else None  # type: ignore[arg-type]
+    return scene.asking(sheet=sheet) if sheet else scene
+
+
 def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase]:
     """The sentences on change points on the path: the branch that was kept, the reason, and how to ask for the
     other."""

@@ -14,6 +14,7 @@ from graphkin.api.arguments import (
     asked_symbols,
     drawn_symbols,
     hand_of,
+    in_convention,
     placed,
     value_at,
 )
@@ -191,6 +192,7 @@ def check(
     *,
     at: At = None,
     find: Iterable[str | Symbol] | None = None,
+    convention: str | None = None,
     instrument: str = "exact",
     seed: int = 0,
 ) -> Checked:
@@ -200,6 +202,7 @@ def check(
     ----------
     scene, at : as for `solve`
     find : the asked quantities by name ("v_D", "omega_3"); the scene's own ``find`` if None; all if that is empty
+    convention : of the letters of its report: "chinese", "us", "british" or "russian"; the scene's own if None
     instrument : "exact", "cad" (lengths read to 0.01 mm, angles to 0.01 degree) or "pencil" (the tools of the scene's
         ``[sheet.instrument]``); a finite instrument is judged by the uncertainty predicted from the construction
     seed : of the pencil; the same seed draws the same sheet
@@ -217,7 +220,7 @@ def check(
     """
     from graphkin import solver
 
-    given = as_scene(scene)
+    given = in_convention(as_scene(scene), convention)
     asked, by_name = drawn_symbols(given, find), asked_symbols(given, find)
     given, values = placed(given, at)
     hand, here = hand_of(given.question.sheet, instrument, seed), asked_here(asked)

@@ -174,7 +174,7 @@ class Designed(Result):
                 for row in self.rows
             ],
             "confirmed": [
-                {"what": say(result.what, self._language), "asked": result.asked,
+                {"what": str(result.what), "asked": result.asked,
                  "found": result.found if math.isfinite(result.found) else None, "ok": result.ok}
                 for result in self.confirmed
             ],

@@ -17,6 +17,7 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     hand_of,
+    in_convention,
     known_words,
     placed,
     unknown_words,
@@ -297,7 +298,7 @@ def draw(
     from graphkin import solver
 
     known_words(formats, language, convention, instrument, known_languages=ON_SHEETS)
-    given = as_scene(scene)
+    given = in_convention(as_scene(scene), convention)
     wanted = known_figures(given, figures)
     places = tuple(as_list("beside", beside, Phrase("give names of positions or driver values 1")))
     alone = [("driver", "structure", driver), ("beside", "polygons", places)]

@@ -238,8 +238,9 @@ class Solved(OfScene, Result):
         values = np.radians(values) if self.columns(name)[0].unit == "deg" else values
         return np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
 
-    def loops(self, language: str | None = None) -> LoopText:
-        """The vector loops of the first position that is solved, with their equations in numbers.
+    def loops(self, language: str | None = None, convention: str | None = None) -> LoopText:
+        """The vector loops of the first position that is solved, with their equations in numbers; in the scene's
+        language and convention where none is given.
 
         Raises
         ------
@@ -247,9 +248,10 @@ class Solved(OfScene, Result):
         """
         from graphkin.account.loops import loops_text
 
-        known_words(language=language)
+        known_words(language=language, convention=convention)
         solved = next((block for block in self.blocks() if block.motion.ok.any()), self.first)
-        return loops_text(solved.motion, language or self.mechanism.question.sheet.language)
+        sheet = self.mechanism.question.sheet
+        return loops_text(solved.motion, language or sheet.language, convention or sheet.convention)  # type: ignore[arg-type]
 
     @cached_property
     def ok(self) -> bool:

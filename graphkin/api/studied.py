@@ -70,7 +70,7 @@ class SpeedAccuracy(Result):
         """The object that ``graphkin study speed-accuracy --json`` prints."""
         from graphkin.races import to_json
 
-        return to_json(self.race, self.language)
+        return to_json(self.race)
 
     def __repr__(self) -> str:
         return f"<SpeedAccuracy {self.race.scene.name}: {len(self.race.entries)} methods>"
@@ -141,7 +141,7 @@ class Stability(Result):
         """The object that ``graphkin study stability --json`` prints."""
         from graphkin.study.error_laws import to_json
 
-        return to_json(self.singularities, self.language)
+        return to_json(self.singularities)
 
     def __repr__(self) -> str:
         return f"<Stability: {', '.join(one.key for one in self.singularities)}>"

@@ -22,6 +22,7 @@ from graphkin.api.arguments import (
     asked_symbols,
     columns_shown,
     driver_values,
+    in_convention,
     known_words,
     known_workers,
     require_callable,
@@ -272,6 +273,7 @@ def sweep(
     formats: Sequence[str] = ("svg",),
     text: str = "glyphs",
     language: str | None = None,
+    convention: str | None = None,
     executor: Executor | None = None,
     workers: int | None = None,
     scheduler: str | None = None,
@@ -299,6 +301,7 @@ def sweep(
     workers : number of processes instead, for a sweep that takes some seconds; scheduler: address of a Dask cluster
         instead
     progress : called with the rows done and all rows
+    language, convention : as for `draw`
     text : letters of an SVG as text with its "glyphs", or as "outlines"
     measured : a CSV file with a row for each position (a column ``at``: driver value or name of a position) and symbols
         as heads: values measured elsewhere, drawn into the diagrams of these quantities
@@ -338,7 +341,7 @@ def sweep(
     }
     made = designs_of(designs, designs_file)
     source, name = written(scene) if made.keys else (as_scene(scene), "")
-    given = as_scene(source)
+    given = in_convention(as_scene(source), convention)
     if isinstance(source, Mapping) and len(made):
         from graphkin.study.designs import applied
 

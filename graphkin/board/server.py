@@ -81,13 +81,14 @@ def _policy(nonce: str, address: Address) -> str:
     )
 
 
-def application(shelf: Shelf, address: Address) -> Starlette:
+def application(shelf: Shelf, address: Address, language: str = "") -> Starlette:
     """The ASGI application of the page.
 
     Parameters
     ----------
     shelf : the scenes of the page
     address : the port on which it listens, and the secret
+    language : that the page begins with; the browser's if empty
     """
     from starlette.applications import Starlette
     from starlette.concurrency import run_in_threadpool
@@ -122,7 +123,7 @@ def application(shelf: Shelf, address: Address) -> Starlette:
         if why := refused(request):
             return headed(PlainTextResponse(why, 403))
         nonce = secrets.token_urlsafe(16)
-        body = (STATIC / "board.html").read_text(encoding="utf-8").replace("NONCE", nonce)
+        body = (STATIC / "board.html").read_text(encoding="utf-8").replace("NONCE", nonce).replace("LANGUAGE", language)
         return headed(Response(body, media_type="text/html"), nonce)
 
     async def static(request: Request) -> Response:
@@ -172,13 +173,16 @@ def _answered(shelf: Shelf, text: str) -> str:
         return json.dumps({"id": number, "ok": False, "problems": [{"text": text, "line": 0}], "kind": "Defect"})
 
 
-def serve(shelf: Shelf, port: int = 0, ready: Callable[[Address], None] | None = None) -> None:
+def serve(
+    shelf: Shelf, port: int = 0, ready: Callable[[Address], None] | None = None, language: str = ""
+) -> None:  # fmt: skip
     """Serve the page until it is interrupted.
 
     Parameters
     ----------
     port : to listen on; a free one if 0
     ready : called with the address when the page can be opened
+    language : as of `application`
 
     Raises
     ------
@@ -200,7 +204,7 @@ def serve(shelf: Shelf, port: int = 0, ready: Callable[[Address], None] | None =
     address = Address.new(listening.getsockname()[1])
     gc.set_threshold(10_000, 10, 10)  # a command that ends at once looks for garbage next to never; this one stays
     try:
-        asyncio.run(_run(application(shelf, address), listening, lambda: ready(address) if ready else None))
+        asyncio.run(_run(application(shelf, address, language), listening, lambda: ready(address) if ready else None))
     finally:
         listening.close()
 

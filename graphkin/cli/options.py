@@ -24,7 +24,7 @@ Texts = list[str] | None
 
 KINDS: dict[str, Any] = {"text": str | None, "texts": Texts, "number": int | None, "path": Path | None}
 FLAGS = {"out": ("-o", "--out"), "quiet": ("-q", "--quiet"), "browser": ()}
-SPOKEN = {"lang": LANGUAGES, "lang of sheets": (*LANGUAGES, BOTH)}
+SPOKEN = {"lang": LANGUAGES, "lang of open": LANGUAGES, "lang of sheets": (*LANGUAGES, BOTH)}
 
 
 def _declared(name: str, about: dict[str, Any]) -> inspect.Parameter:

@@ -17,6 +17,7 @@ import graphkin
 from graphkin.cli.options import Given, command, named_numbers, processes, split_words
 from graphkin.cli.output import (
     answering,
+    asked_languages,
     complain,
     finish,
     print_failed,
@@ -228,7 +229,7 @@ def solve(given: Given) -> None:
         solved = given.call(graphkin.solve)
     if given.out is not None:
         write_files(given.out, {"solution.json": solved.json()})
-    drawn = solved.loops(given.lang) if given.loops and solved.ok else None
+    drawn = solved.loops(given.lang, given.convention) if given.loops and solved.ok else None
     if given.json and not solved.ok:
         problem = Problem(solved.mechanism.name, solved.said)
         print_failed(str(solved.first.motion.status[0]), [problem], solved.data)
@@ -275,7 +276,7 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
 
 @command(
     "scene", "out", "positions", "set", "designs", "workers", "scheduler", "measured", "differentiate", "integrate",
-    "format", "text", "at", "find", "lang", "json", "quiet",
+    "format", "text", "at", "find", "lang", "convention", "json", "quiet",
 )  # fmt: skip
 def sweep(given: Given) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
@@ -530,26 +531,28 @@ def convert(given: Given) -> None:
     complain(*(Phrase("not carried over", part=part) for part in made.left))
 
 
-@command("scene of open", "port", "browser")
+@command("scene of open", "port", "browser", "lang of open")
 def open_page(given: Given) -> None:
     """Edit a mechanism in the browser: text, form and figures together; drag points, build from nothing, print papers.
 
     The page is for this machine alone and lives until it is interrupted (Ctrl-C).
     """
+    from graphkin.api.arguments import known_words
     from graphkin.board.answers import LINK, text_of_link
     from graphkin.board.server import Address, needs_live, serve
     from graphkin.board.shelf import Shelf
 
+    known_words(language=given.lang)
     needs_live()
     linked = given.scene.startswith(LINK)
     shelf = Shelf(draft=text_of_link(given.scene)) if linked else Shelf.of(given.scene)
 
     def ready(address: Address) -> None:
-        show(f"{address.url}\nCtrl-C ends it")
+        show("\n".join([address.url, *(word("ctrl-c ends it", each) for each in asked_languages(sys.argv[1:]))]))
         if given.browser:
             import webbrowser
 
             webbrowser.open(address.url)
 
     with suppress(KeyboardInterrupt):  # which is how it ends
-        serve(shelf, given.port, ready)
+        serve(shelf, given.port, ready, given.lang or "")

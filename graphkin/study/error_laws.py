@@ -191,13 +191,13 @@ def laws_table(singularities: Sequence[Singularity]) -> Table:
     return Table.of(heads, rows, ("", "", "", ".4g", ".3g", ".2f", ".3g", ".3g", ".3g"))
 
 
-def to_json(singularities: Sequence[Singularity], language: str = "en") -> dict[str, Json]:
+def to_json(singularities: Sequence[Singularity]) -> dict[str, Json]:
     """Slopes, theory, and the distances where each method warns and refuses; without ``nan``."""
 
     def of_law(law: ErrorLaw) -> dict[str, Json]:
         return {
             "law": law.key,
-            "says": say(Phrase(law.key), language),
+            "says": say(Phrase(law.key)),
             "slope": None if math.isnan(law.slope) else round(law.slope, 3),
             "theory": law.theory,
             "warns_from": law.warns_from,
@@ -209,9 +209,9 @@ def to_json(singularities: Sequence[Singularity], language: str = "en") -> dict[
         "singularities": [
             {
                 "kind": s.key,
-                "distance": word(s.distance, language),
+                "distance": word(s.distance),
                 "laws": [of_law(law) for law in (*s.laws, *s.growth)],
-                "notes": [say(fate, language) for fate in s.fates],
+                "notes": [say(fate) for fate in s.fates],
             }
             for s in singularities
         ]

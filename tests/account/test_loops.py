@@ -19,6 +19,11 @@ def test_a_power_of_ten_is_no_index_for_a_terminal():
     assert [] == [sign for sign in ("10_", "$", "{") if sign in lines]
 
 
+def test_vectors_of_loops_bear_the_mark_of_the_convention_that_is_asked_for():
+    loops = graphkin.solve("sixbar-420rpm").loops(convention="russian")
+    assert r"\[ \vec{l}_{AB} + \vec{l}_{BC} + \vec{l}_{CD} + \vec{l}_{DA} = 0 \]" == loops.latex.split("\n")[0]
+
+
 @pytest.mark.parametrize(("latex", "line"), [
     (r"0.34 \cos \theta_{2} - 3\cdot 10^{-7} = 0", "0.34 cos " + sign("θ", "2") + " − 3·10⁻⁷ = 0"),
     (r"150 \sin (\theta_{3} + 20^{\circ})", "150 sin (" + sign("θ", "3") + " + 20°)"),

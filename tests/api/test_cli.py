@@ -169,7 +169,7 @@ def test_figures_in_both_languages_come_with_an_english_report(tmp_path, command
 
 def test_a_report_has_one_language():
     said = run("check", SIXBAR, "--lang", "both").stderr.splitlines()
-    assert ['graphkin: lang: "both"; known here: en, zh', 'graphkin: lang："both"；可用的有：en, zh'] == said
+    assert ['graphkin: lang: "both"; known here: en, zh', 'graphkin: lang："both"；可用的有：en、zh'] == said
 
 
 def test_the_same_scene_gives_the_same_bytes(tmp_path):

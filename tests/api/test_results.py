@@ -261,3 +261,17 @@ def minus_before_nought(data: object) -> list[str]:
 def test_no_minus_stands_before_nought_in_what_programs_read(name):
     made = [graphkin.check(name), graphkin.solve(name, sweep=5), graphkin.centres(name)]
     assert [] == [sign for result in made for sign in minus_before_nought(result.data)]
+
+
+@pytest.mark.parametrize("made", [
+    lambda language: graphkin.design("slider-crank-stroke-50", language=language),
+    lambda language: graphkin.stability(kinds=["crossing height"], samples=1, language=language),
+])  # fmt: skip
+def test_a_program_reads_the_same_sentences_in_every_language(made):
+    english, chinese = (made(language).data for language in ("en", "zh"))
+    assert _sentences(english) == _sentences(chinese)
+
+
+def _sentences(data) -> list[str]:
+    inner = data.values() if isinstance(data, dict) else data if isinstance(data, list) else ()
+    return [data] if isinstance(data, str) else [text for part in inner for text in _sentences(part)]

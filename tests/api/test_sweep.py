@@ -347,3 +347,12 @@ def test_a_design_with_another_driver_has_nothing_in_the_column_of_the_scene_s_o
     assert [60, 240] == pytest.approx(swept["driver_1"][0])
     assert np.isnan(swept["driver_1"][1]).all()
     assert np.isfinite(swept["omega_2"][:, 0]).all()
+
+
+def test_motion_diagrams_have_the_letters_of_the_convention_that_is_asked_for():
+    scene = graphkin.read(NAME).to_dict()
+    american = graphkin.sweep(scene | {"sheet": {"convention": "us"}}).figures
+    asked = graphkin.sweep(scene, convention="us").figures
+    assert {name: figure.content("svg") for name, figure in american.items()} == {
+        name: figure.content("svg") for name, figure in asked.items()
+    }

@@ -314,3 +314,13 @@ def test_the_page_speaks_chinese_and_keeps_the_scene(page) -> None:
     page.wait_for_selector("[data-figure=velocity] svg")
     assert library_text("sixbar-420rpm") == text_of(page)
     assert "zh" == page.evaluate("document.documentElement.lang")
+
+
+def test_the_page_begins_in_the_language_that_the_command_asks_for(browser, tmp_path) -> None:
+    with served("--lang", "zh", "sixbar-420rpm", cwd=tmp_path) as (address, process):
+        assert "按 Ctrl-C 结束" == process.stdout.readline().strip()
+        one = browser.new_page()
+        one.goto(address)
+        until(one, "document.documentElement.lang === 'zh'")
+        assert "速度多边形" == one.wait_for_selector("[data-figure=velocity] h2").inner_text()
+        one.close()

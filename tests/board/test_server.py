@@ -153,3 +153,8 @@ def test_a_port_that_is_taken_is_said(url: str, tmp_path) -> None:
     found = run("open", "--port", str(urlsplit(url).port), "--no-browser", cwd=tmp_path)
     assert 2 == found.returncode
     assert "cannot be used" in found.stderr
+
+
+def test_the_page_speaks_no_unknown_language() -> None:
+    done = run("open", "--no-browser", "--lang", "fr")
+    assert (2, 'graphkin: lang: "fr"; known here: en, zh\n') == (done.returncode, done.stderr)

@@ -13,7 +13,7 @@ const STORE = "graphkin-board";
 export async function mount(root, send, { kept = null, nonce = "", wrote = () => {} } = {}) {
   const before = kept?.read() ?? {};
   const state = {
-    name: "", text: "", mark: "", own: false, at: null, language: before.language ?? navigator.language.slice(0, 2),
+    name: "", text: "", mark: "", own: false, at: null, language: before.language ?? (root.dataset.language || navigator.language.slice(0, 2)),
     convention: before.convention ?? "", instrument: "exact", figures: before.figures ?? FIRST, find: "", playing: false, step: null,
   };
   const ask = (question, long) => send({ language: state.language, ...question }, long);
