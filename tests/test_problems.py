@@ -144,7 +144,7 @@ def test_each_problem_of_a_file_is_said_in_chinese_on_a_line_of_its_own(broken):
     assert (2, "", [
         "graphkin: links.2.lenght：没有这个键；是否指“length”？",
         "graphkin: links.1.length：读到 -5，长度为负；长度应为正",
-        "graphkin: driver.link：没有构件“9”；可用的有：1, 2",
+        "graphkin: driver.link：没有构件“9”；可用的有：1、2",
     ]) == (done.returncode, done.stdout, done.stderr.splitlines())  # fmt: skip
 
 
@@ -163,7 +163,7 @@ def test_in_both_languages_the_english_lines_stand_first(broken):
     (2, "sweep：0 个位置；请给 1 到 10000000 之间的整数", ("solve", "elliptic-trammel", "--sweep", "0")),
     (2, "缺少参数“SCENE”", ("draw",)),
     (2, "没有命令“drw”；是否指 'draw'？", ("drw",)),
-    (2, "没有选项 --positionz；是否指 --positions？", ("sweep", "shaper-scheme-2", "--positionz", "3")),
+    (2, "没有选项 --positionz；是否指 --convention、--positions？", ("sweep", "shaper-scheme-2", "--positionz", "3")),
 ])  # fmt: skip
 def test_a_call_is_refused_in_chinese_with_the_same_status(status, said, call):
     done = run(*call, "--lang", "zh")
@@ -171,7 +171,7 @@ def test_a_call_is_refused_in_chinese_with_the_same_status(status, said, call):
 
 
 @pytest.mark.parametrize(("name", "old", "new", "said"), [
-    ("cam-offset-roller", ', by = "cycloidal"', "", r'没有写运动规律；by = "\w+", .*" 或 "\w+"$'),
+    ("cam-offset-roller", ', by = "cycloidal"', "", r'没有写运动规律；by = "\w+"、.*" 或 "\w+"$'),
     ("disc-on-disc", '"2.w"]', '"1.k"]', "：1.k 和 1.k 是同一构件 1 的轮廓"),
     ("oldham-coupling", "[driver]", '[loads.Q]\non = "2"\nforce = 3\nagainst = "2"\n[driver]', "“2”可以是 2/1 或 2/3"),
 ])  # fmt: skip
@@ -194,7 +194,7 @@ def test_names_in_a_refusal_are_joined_in_its_language(name, old, new, said):
      {"title": ["a", 2, {"a": 1}]}),
     ("between: found nothing; two different points", "between：读到无；应为两个不同的点", "rocker-return-spring",
      {"springs": {"R": {"between": [], "rate": 1, "free": 1}}}),
-    ("names no point; write for example a_B, a_B@3, a_C/B", "没有写点；例如写 a_B, a_B@3, a_C/B", "whitworth",
+    ("names no point; write for example a_B, a_B@3, a_C/B", "没有写点；例如写 a_B、a_B@3、a_C/B", "whitworth",
      {"find": ["a_9"]}),
     ("position 7: the scene has no [positions]", "位置 7：机构文件没有 [positions] 表", "whitworth", {}),
 ])  # fmt: skip

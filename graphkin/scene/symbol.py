@@ -224,8 +224,8 @@ class Symbol:
         if match is None and kind.of_pairs:
             match = re.fullmatch(_FORMS["pair"], names)
         if match is None:
-            missing = Phrase(_MISSING.get(kind.form, "names no link"))
-            raise ValueError(Phrase("write for example", text=text, missing=missing, example=kind.example))
+            missing, example = Phrase(_MISSING.get(kind.form, "names no link")), listed(kind.example.split(", "))
+            raise ValueError(Phrase("write for example", text=text, missing=missing, example=example))
         return cls.of_names(name, match.groupdict(""))
 
     @classmethod

@@ -395,7 +395,8 @@ def from_others(sentence: Wording | Exception) -> Wording:
         return sentence
     for key, pattern in _sentences_of_others():
         if match := pattern.fullmatch(sentence):
-            return Phrase(key, **{name: from_others(gap) for name, gap in match.groupdict().items()})
+            gaps = {name: from_others(gap) for name, gap in match.groupdict().items()}
+            return Phrase(key, **gaps | ({"near": listed(match["near"].split(", "))} if "near" in gaps else {}))
     return sentence
 
 
