@@ -424,7 +424,10 @@ class InPolygon(Telling):
         """The gaps of the trials, measured from letter to letter, and the proportional division in numbers."""
         divided = self._divided
         rows = numbered([true_minus(on_paper(mm)) for mm in row] for row in divided.apart)
-        found, quotients = self._rates(divided.found), divisions(self.sheet, divided)
+        quotients, told = divisions(self.sheet, divided), []
+        for (symbol, _), one in zip(divided.found, quotients, strict=True):
+            told.append(Phrase("rate is", symbol=symbol, value=one.value, unit=self._unit(symbol)))
+        found = listed(told)
         if len(quotients) > 1:
             parts = listed([one.part for one in quotients])
             return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=found)

@@ -469,7 +469,8 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     plans = train_pages(FigurePage(lesson.sheet, "plan", lesson.language, lesson.letters))
     pages = [[plans.pop(n) for n in dict.fromkeys(step.plan for step in stage.steps) if n in plans]
              for stage in lesson.stages]  # fmt: skip
-    leads_on = [*map(_leads_on, lesson.stages, (*lesson.stages[1:], None))]
+    drawn = iter([stage for stage in lesson.stages if not stage.of_plans][1:])
+    leads_on = [stage.of_plans or _leads_on(stage, next(drawn, None)) for stage in lesson.stages]
     count = 0  # of the figures
     for k, (stage, shown) in enumerate(zip(lesson.stages, pages, strict=True)):
         if stage.diagram not in layers:
@@ -483,7 +484,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
             plans_before = sum(map(len, pages[k : leads_on.index(False, k)]))
             told = _told(lesson, stage, count + plans_before + 1)
             yield Together((*told, *step_items(lesson, stage, len(stage.steps) > 1)))
-            first = stage.first
+            first = first or stage.first
         else:
             count += 1
             yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], opening, first or stage.first, count)))

@@ -65,13 +65,15 @@ class Stage:
 
 
 def stages(sheet: Sheet) -> tuple[Stage, ...]:
-    """The steps of a sheet in groups: one for the position, one for each equation with what is measured after it."""
+    """The steps of a sheet in groups: one for the position, one for each equation with what is measured after it, one
+    for velocity plans between two equations."""
     equations = {e.number: e for e in sheet.equations}
     parts: list[Stage] = []
     for step in sheet.steps:
         equation = equations.get(step.equation) if step.equation is not None else None
-        if parts and parts[-1].diagram == step.diagram and (equation is None or equation is parts[-1].equation):
-            last = parts[-1]
+        last = parts[-1] if parts else None
+        begins = last is None or last.diagram != step.diagram or equation not in (None, last.equation)
+        if last is not None and not begins and (last.equation is None or not step.plan):
             parts[-1] = Stage(last.diagram, last.equation, (*last.steps, step))
         else:
             parts.append(Stage(step.diagram, equation, (step,)))

@@ -219,3 +219,10 @@ def test_a_moving_point_over_a_pivot_is_no_fixed_pivot():
     said = " ".join(repr(why(speaker, equation, "en")) for equation in sheet.equations)
     assert "fixed pivot $A_{3}$" not in said
     assert "$B$ and $A_{3}$ are points of the rigid link 3: the relative acceleration has a part" in said
+
+
+def test_the_rate_that_a_division_gives_is_the_value_of_its_sum():
+    sheet, _ = drafted("double-butterfly")
+    account = Account(sheet, notation_of(sheet, "chinese"))
+    said = " ".join(str(telling(account, step).sentence("en")) for step in sheet.steps if step.reason == "open ends")
+    assert "α_3 = 7.562 (7.5619) rad/s², that is 6 + 11.42 / (10.51 + 11.42) × 3" in said

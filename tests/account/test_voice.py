@@ -231,7 +231,7 @@ def test_trials_of_a_group_are_told_with_what_is_measured_and_divided():
     assert "between the trial positions 3 and 4, divided as 0.56 to 0.25, at −172.68°" in said
     assert "cross at 3° only, 554 mm away, off the paper, so trial polygons are superposed" in said
     assert "from d to f along DF, positive from D to F: I 6.13; II −5.97 mm" in said
-    assert "ω_3 = −6.6584 rad/s, that is −6 − 6.13 / (5.97 + 6.13) × 1.3" in said
+    assert "ω_3 = −6.659 (−6.6584) rad/s, that is −6 − 6.13 / (5.97 + 6.13) × 1.3" in said
     assert "From b lay off v_CB = ω_3 l_CB, 39.95 mm, ⊥CB, pointing to −91.5°: point c" in said
 
 

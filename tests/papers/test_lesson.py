@@ -14,6 +14,8 @@ from graphkin.checking.readings import read_off
 from graphkin.construction import execute, plan
 from graphkin.construction.centres import find_centres
 from graphkin.papers import lesson
+from graphkin.papers.documents import solution_blocks
+from graphkin.papers.html import blocks_html
 from graphkin.papers.lesson import usual_count
 from graphkin.papers.screen import motion_data
 from graphkin.scene import mechanism_of, mechanism_of_text
@@ -143,3 +145,17 @@ def test_in_every_position_of_a_page_the_centres_of_cams_are_those_of_that_posit
             if centre.point is not None:
                 place = centre.point * there.sheet.scales.length
                 assert place == pytest.approx(view.centres.table[pair].point * per_m, abs=1e-9)
+
+
+@pytest.fixture(scope="module")
+def geared():
+    return graphkin.handout("geared-five-bar", positions=1, formats=["html"]).lesson
+
+
+def test_steps_of_a_velocity_plan_stand_under_its_heading_and_under_no_equation(geared):
+    assert [] == [stage.equation for stage in geared.stages if len({bool(step.plan) for step in stage.steps}) > 1]
+    assert [(9, 11), (24, 26)] == [(stage.first, stage.last) for stage in geared.stages if stage.of_plans]
+
+
+def test_a_figure_of_several_equations_marks_the_steps_of_all_of_them(geared):
+    assert "Figure 3. Velocity polygon, step 20" in blocks_html(tuple(solution_blocks(geared)), "en")
