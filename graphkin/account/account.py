@@ -160,7 +160,7 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
     elif symbol.kind in ("v", "an"):
         fixed = symbol.kind == "an" and _rests(sheet, to)
         alone = not any(t.symbol == Symbol("at", of, to) for side in equation.sides for t in side)
-        if term.link not in sheet.scene.by_name:  # a bar that stands for a contact
+        if term.link not in sheet.scene.whole.by_name:  # a bar that stands for a contact
             yield Phrase("why centres", point=of, other=to)
         elif fixed:
             turning = "why turning evenly" if alone else "why turning parts"

@@ -375,3 +375,11 @@ def test_a_fixed_pin_in_a_moving_slot_is_told_by_the_links_that_coincide():
     said = " ".join(_reasons(FIXED_PIN, "en").values())
     assert "$C_{2}$ and $C_{0}$ coincide at this moment; $C_{0}$ runs along a guide of link 2" in said
     assert "/2" not in said
+
+
+def test_the_bar_that_stands_for_a_cam_has_its_reason():
+    sheet = check("cam-offset-roller").sheet
+    account = Account(sheet, notation_of(sheet, "chinese"))
+    said = [str(why(account, equation, "en")) for equation in sheet.equations]
+    reason = "B and O are the centres of curvature of the outlines that touch: their distance stays"
+    assert [1, 3] == [number for number, sentences in enumerate(said) if reason in sentences]
