@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import io
+import json
 import tempfile
 import zipfile
 import zlib
@@ -145,6 +146,7 @@ class Message(BaseModel):
         """A message with all arguments of its question.  Raises CallError, naming those that are missing or wrong."""
         given = {key: value for key, value in message.items() if value is not None}
         wrong = {key: None for key in cls.model_fields if key in needed and key not in given}
+        wrong |= {key: value for key, value in given.items() if not _is_text(value)}
         try:
             made = cls.model_validate(given)
         except ValidationError as error:
@@ -169,6 +171,14 @@ class Message(BaseModel):
         figures = FigureOptions.figures if self.figures is None else tuple(self.figures)
         scales = Scales(*self.scales) if self.scales else None
         return FigureOptions(figures, language, convention, instrument, self.seed, scales)
+
+
+def _is_text(value: object) -> bool:
+    """Whether a value can be sent and saved: half of a character that needs two codes cannot."""
+    try:
+        return bool(json.dumps(value, ensure_ascii=False).encode())
+    except UnicodeEncodeError:
+        return False
 
 
 _PULL, _COMPLETE = ("pull", Phrase("name a point and a place")), ("complete", Phrase("give line and column"))

@@ -497,3 +497,13 @@ def test_the_page_offers_each_language_by_its_own_name() -> None:
 def test_the_languages_of_a_sheet_are_completed() -> None:
     options = told("complete", text='[sheet]\nlanguage = ', line=2, column=11)["options"]
     assert ['"en"', '"zh"'] == [option["label"] for option in options]
+
+
+@pytest.mark.parametrize("message", [
+    {"do": "link", "text": "\ud800"}, {"do": "save", "name": "mine.toml", "text": "\ud800"},
+    {"do": "change", "text": SIXBAR, "changes": {"title": "\ud800"}},
+])  # fmt: skip
+def test_half_a_character_is_refused_in_words(message):
+    found = answer(Shelf(), message)
+    assert not found["ok"]
+    assert "\\ud800" in found["problems"][0]["text"]

@@ -376,3 +376,10 @@ def test_a_slip_in_two_components_is_named_not_taken_for_another_position(text, 
     four_bar = "fourbar-150-500-300-400"  # a_B = (-7500, -12990.4)
     (value,) = graphkin.audit(four_bar, answers={"A": {"a_B": text}}).data["values"]
     assert ("wrong", slip) == (value["verdict"], value["looks_like"])
+
+
+@pytest.mark.parametrize("unit", ["米/秒²", "m/秒2", "米/秒平方", "米每二次方秒", "米每平方秒"])
+def test_accelerations_in_chinese_units_are_read(unit, tmp_path):
+    (tmp_path / "class.csv").write_text(f"name,a_B@3\np,3.937 {unit}\n", encoding="utf-8")
+    (value,) = graphkin.audit("sixbar-guide-40deg", answers=tmp_path / "class.csv").data["values"]
+    assert "right" == value["verdict"]
