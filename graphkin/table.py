@@ -644,6 +644,7 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
             break
     else:
         raise CallError.of(shown, "is not utf-8 text", "save it as csv")
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
     first = text.split("\n", 1)[0]
     sign = max(",;\t", key=first.count)
     try:

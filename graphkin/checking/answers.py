@@ -134,7 +134,7 @@ def _answers(
         roles["person"] = roles.pop("id")
     if not values and not problems:
         problems.append(Problem(name, "no column is a quantity", "write symbols as heads for example v_d or",
-                                names=some_of(sheet.heads)))
+                                names=some_of([*filter(None, sheet.heads)])))
     rows = [(line, (*cells, *[""] * (len(sheet.heads) - len(cells)))) for line, cells in sheet.rows]
     places = {cells[roles["at"]] for _, cells in rows if "at" in roles} - {""}
     # numbers are driver values, unless all of them are names of positions

@@ -45,7 +45,7 @@ def plain_text(text: str) -> str:
     )
     powers = re.sub(r"\s*[×xX·*⋅]\s*10\s*\^\s*\{?\s*([-+\u2212]?\d+)\s*\}?", r"e\1", powers)
     signs = str.maketrans({"\u2212": "-", "\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u207b": "-",
-                           "\u20d7": None, "\u0305": None, "°": "°", "º": "°"})  # fmt: skip
+                           **dict.fromkeys("\u20d7\u0305\u200b\u2060\ufeff"), "º": "°"})  # fmt: skip
     return unicodedata.normalize("NFKC", powers.translate(signs)).translate(signs).strip()
 
 

@@ -383,3 +383,12 @@ def test_accelerations_in_chinese_units_are_read(unit, tmp_path):
     (tmp_path / "class.csv").write_text(f"name,a_B@3\np,3.937 {unit}\n", encoding="utf-8")
     (value,) = graphkin.audit("sixbar-guide-40deg", answers=tmp_path / "class.csv").data["values"]
     assert "right" == value["verdict"]
+
+
+@pytest.mark.parametrize("data", [
+    "name,v_D\rJosé,482.7\r".encode(), "\ufeffname,\ufeffv_D\nJosé,482.7\u200b\n".encode(),
+], ids=["line ends of a Mac", "signs without width"])  # fmt: skip
+def test_a_table_is_read_as_other_programs_write_it(data, tmp_path):
+    (tmp_path / "class.csv").write_bytes(data)
+    (value,) = graphkin.audit("sixbar-guide-40deg", answers=tmp_path / "class.csv").data["values"]
+    assert ("José", "right") == (value["person"], value["verdict"])
