@@ -320,8 +320,10 @@ def pulled(
     """
     scene = motion.scene
     kinds = movable(scene)
+    if point not in kinds and point not in scene.holders:
+        raise CallError.of(Phrase("point", point=point[:60]), "there is no such point", did_you_mean(point[:60], kinds))
     if point not in kinds:
-        raise CallError.of(Phrase("point", point=point[:60]), "cannot be pulled", "its place follows from the others")
+        raise CallError.of(Phrase("point", point=point), "cannot be pulled", "its place follows from the others")
     if point in scene.frame.points:
         return _of_frame(raw, scene, point, to), {}
     if kinds[point] == "driver" and not lengths:

@@ -175,8 +175,10 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
     if any(element.driver not in structure.scene.drivers for element in structure.driven):
         raise CallError.of(scene.name or "scene", "moves by a cam or by rolling", "solve such a mechanism with solve")
     outputs = compared_points(structure)
-    if not outputs or not any(d.values[1] for d in scene.drivers):
-        raise CallError.of(scene.name or "scene", "nothing moves that could be looked at", "give the driver a rate")
+    moving = any(d.values[1] for d in scene.drivers)
+    if not outputs or not moving:
+        wanted = Phrase("give a moving link a point" if moving else "give the driver a rate")
+        raise CallError.of(scene.name or "scene", "nothing moves that could be looked at", wanted)
     fine = solver.solve(structure.scene, sweep=FINE).require()
     good = np.flatnonzero(fine.ok)
     full = len(good) == FINE and scene.drivers[0].turns

@@ -179,7 +179,7 @@ def _position_problems(where: str, i: int, driver: Driver, reading: Reading) -> 
         yield Problem(here, "there is no position", wanted, at=driver.position)
     elif positions.first is None and named not in positions.also:
         yield Problem(here, "the numbered positions count from the driver's own", "write positions.first or the angle")
-    if driver.angle is not None:
+    if driver.angle is not None and driver.origin is None:
         yield Problem(here, "found angle too", "write one of the two", angle=f"{driver.angle:g}")
     if driver.origin is not None or reading.file.drawn:
         yield Problem(here, "what gives the driver's value stands here twice", "leave one of them out")

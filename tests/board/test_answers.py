@@ -507,3 +507,8 @@ def test_half_a_character_is_refused_in_words(message):
     found = answer(Shelf(), message)
     assert not found["ok"]
     assert "\\ud800" in found["problems"][0]["text"]
+
+
+def test_a_point_that_does_not_exist_is_not_said_to_follow_from_others():
+    found = answer(Shelf(), {"do": "pull", "text": SIXBAR, "point": "Q", "x": 1, "y": 2})
+    assert "point Q: there is no such point; known here: A, B, C, D, E, F" == found["problems"][0]["text"]

@@ -15,12 +15,13 @@ from graphkin.construction import execute, pencil, plan
 from graphkin.construction.forces.draw import force_scales, with_forces
 from graphkin.construction.plan import Plan
 from graphkin.construction.position.links_on_paper import PlacedLinks
+from graphkin.errors import Unsolvable
 from graphkin.plane import Pose
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
-from tests.scenes import slider_crank
+from tests.scenes import four_bar, slider_crank
 
 SIXBAR = "sixbar-guide-40deg"
 SEEDS = 100  # a reading that is off is so in all that use it: of a short series few drawings count for many
@@ -169,3 +170,11 @@ def test_a_pencil_s_forces_have_the_scale_of_the_exact_drawing() -> None:
     hands = [pencil(Tools(), seed) for seed in range(6)]
     drawn = [with_forces(execute(planned(low), hand), hand).scales.force for hand in hands]
     assert [scale(100.0)] * 6 == drawn
+
+
+def test_a_pencil_that_misses_beside_a_dead_point_is_said_to_miss():
+    driver = {"link": "1", "from": "dead point", "angle": -1e-3, "near": 60, "omega": 1}
+    scene = four_bar(50, 60, 40, 100, sketch={"C": [90, 60]}, driver=driver)
+    assert graphkin.check(scene).ok
+    with pytest.raises(Unsolvable, match="drawn by hand, do not meet; draw exactly, with another seed, or farther"):
+        graphkin.check(scene, instrument="pencil", seed=2)

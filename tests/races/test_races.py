@@ -16,6 +16,7 @@ import pytest
 import graphkin
 import graphkin.races
 from graphkin.api.studied import SpeedAccuracy
+from graphkin.errors import CallError
 from graphkin.races import PEERS_FILE, Race, _peer, lessons, race, race_page, race_table, to_json, work
 from graphkin.races.work import Skipped
 from graphkin.scene import mechanism_of
@@ -243,3 +244,10 @@ def test_every_number_of_what_is_concluded_is_one_of_the_chart(seed: int) -> Non
     assert slower == pytest.approx(float(lose.gaps["single_times"]), rel=0.01)
     best = min(e.velocity_error for e in found.entries if e.key == "differences")
     assert best == pytest.approx(float(lose.gaps["velocity"]), rel=0.6)
+
+
+def test_a_moving_link_without_a_point_is_told_to_want_one():
+    block = {"frame": {"name": "0", "guides": {"h": {"through": [0, 0], "angle": 0}}}, "links": {"1": {"on": "0.h"}},
+             "driver": {"slide": "1/0", "travel": 10, "velocity": 5}}  # fmt: skip
+    with pytest.raises(CallError, match="nothing moves that could be looked at; give a moving link a point"):
+        graphkin.speed_accuracy(block, repeats=1)

@@ -535,3 +535,12 @@ def test_what_stands_beside_or_is_left_out_is_told_in_one_sentence(rule: str) ->
 def test_a_truth_at_which_a_printed_row_stands_is_not_missing_too() -> None:
     [sentence] = messages(changed(FOUR_BAR, ("[driver]", "[[printed_rows]]\nat = true\n[driver]")))
     assert sentence.startswith("printed_rows.1.at: found true; write a number")
+
+
+def test_a_position_beside_the_distance_from_a_dead_point_is_one_problem():
+    driver = '[positions]\nalso = { a = 30 }\n[driver]\nposition = "a"\nfrom = "dead point"\nnear = 60\n'
+    with pytest.raises(SceneError) as refused:
+        mechanism_of_text(changed(FOUR_BAR, ("[driver]\n", driver)), "scene")
+    assert ["driver.position: what gives the driver's value stands here twice; leave one of them out"] == [
+        str(problem) for problem in refused.value.problems
+    ]

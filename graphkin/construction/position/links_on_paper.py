@@ -492,12 +492,15 @@ def met_near(paper: PlacedLinks, dyad: Dyad, guess: Poses, before: Poses | None 
     return poses
 
 
-def refuse(structure: Structure, element: Dyad, intersection: Intersection) -> None:
-    """Raise Unsolvable where the loci of a dyad miss each other ("not assembled") or only touch ("dead point")."""
+def refuse(structure: Structure, element: Dyad, intersection: Intersection, by_hand: bool = False) -> None:
+    """Raise Unsolvable where the loci of a dyad miss each other ("not assembled") or only touch ("dead point"); loci
+    drawn by hand miss where those of the mechanism meet."""
     missed = intersection.gap < -1e-14 and not element.is_two_lines
     if missed or not intersection.poses or intersection.sine < DEAD:
         said = "the two loci of the group do not" if missed else "the group stands at a dead point its"
         wanted = "choose a driver value at which the mechanism" if missed else "move the driver off this position"
+        if missed and by_hand:
+            said, wanted = "so near a dead point the drawn loci", "draw exactly with another seed or"
         problem = Problem(named_with_contact(structure, element), Phrase(said, kind=element.kind), Phrase(wanted))
         raise Unsolvable("not assembled" if missed else "dead point", problem)
 

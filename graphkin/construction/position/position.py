@@ -117,7 +117,7 @@ def place(
             place_by_trial(paper, assembly.reduced[element], assembly.poses)
             return {}
         intersection = meet(paper, element)
-        refuse(structure, element, intersection)
+        refuse(structure, element, intersection, by_hand=not paper.instrument.faultless)
         index = assembly.branches.get(i, 0) % len(intersection.poses)
         met[element] = intersection, index
         return intersection.poses[index]
