@@ -21,7 +21,7 @@ import numpy as np
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Uncertainty
 from graphkin.checking.slip_likelihood import Suspect, Suspects
-from graphkin.construction import AS_DRAWN, OwnValues, Plan, Sheet, Stages, execute, plan
+from graphkin.construction import AS_DRAWN, OwnValues, Plan, Sheet, Stages, execute, plan_with_forces
 from graphkin.construction.board.steps import PARTS, Order, Term
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
@@ -82,7 +82,7 @@ class Evidence:
     def of(cls, planned: Plan, motion: Motion, predicted: Mapping[Symbol, Uncertainty]) -> Evidence:
         """The evidence at the position of a plan: all of it is drawn, so that slips on the path to the asked quantities
         and beside it are found."""
-        whole = plan(planned.structure, planned.values, ())
+        whole = plan_with_forces(planned.structure, planned.values, (), ())
         drawn = planned if set(planned.elements) == set(whole.elements) else whole
         here = as_drawn(motion, planned.structure)
         return cls(drawn, lambda symbol: exact_values(here, [symbol])[symbol], predicted)

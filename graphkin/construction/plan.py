@@ -379,8 +379,9 @@ def plan(
 
 
 def plan_with_forces(
-    structure: Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], by_name: Sequence[Symbol]
-) -> Plan:
+    structure: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol],
+    by_name: Sequence[Symbol],
+) -> Plan:  # fmt: skip
     """The plan of a drawing with its forces: of the motion alone, where a load acts on a part of a stroke without a
     whole turn and no force is asked for by name.
 

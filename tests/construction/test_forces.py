@@ -797,6 +797,11 @@ def test_the_motion_is_told_where_a_load_has_no_stroke_and_the_forces_are_refuse
     assert {"mechanism", "velocity"} <= set(drawn.figures)
 
 
+def test_values_of_the_motion_are_judged_where_a_load_has_no_stroke():
+    (value,) = graphkin.audit(rocking_press(find=[], printed={"v_C": 642.7})).data["values"]
+    assert ("v_C", "right") == (value["symbol"], value["verdict"])
+
+
 # -- groups with a scale of their own ----------------------------------------------------------------------------------
 
 PRESS = "toggle-press-force"

@@ -30,7 +30,7 @@ from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slip_likelihood import Judged
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.checking.uncertainty import predict
-from graphkin.construction import execute, plan
+from graphkin.construction import execute, plan, plan_with_forces
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean, some_of
 from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
@@ -242,7 +242,7 @@ def audit(
     if given.question.scans and answers is None:
         standing, values = placed(given, at)
         solved_here(standing, values)  # a position that cannot be had
-        scans = judge_scans(execute(plan(standing, values, ())))
+        scans = judge_scans(execute(plan_with_forces(standing, values, (), ())))
     if answers is None and variants is not None:
         raise CallError.of("variants", "without answers", "leave it out")
     scheme = scheme_of(given, grading)
