@@ -34,7 +34,7 @@ from graphkin.construction.forces.steps import (
 )
 from graphkin.scene.model import SpringOn
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Neutral, Phrase, Wording, bodies_named, gaps_of, in_all, listed, rich_text
+from graphkin.words import Neutral, Phrase, Wording, bodies_named, gaps_of, in_all, joined, listed, rich_text
 from graphkin.words.symbols import RichText, rate, sign, spaced
 from graphkin.words.written import (
     FINER,
@@ -172,10 +172,10 @@ class InForces(Telling):
         arms = [force + f" {printed(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
         if arms:
             scale = Neutral(f"× {amount(self.sheet.scales.length, 12)} m/mm")
-            yield Phrase("force arms", arms=Neutral(spaced(",  ", arms)), scale=scale)
+            yield Phrase("force arms", arms=joined("beside each other", map(Neutral, arms)), scale=scale)
         through = [self.name(t.symbol) for t in equation.terms if t not in with_moments(equation)]
         if through:
-            yield Phrase("force no arm", forces=Neutral(spaced(",  ", through)))
+            yield Phrase("force no arm", forces=joined("beside each other", map(Neutral, through)))
         point = equation.about
         point = f"({point})" if point in scene.by_name and point not in scene.holders else point
         terms, arm, total = balance(self.sheet, equation)

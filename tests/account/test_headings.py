@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 import graphkin
 from graphkin.account.headings import describe, structure_words
+from graphkin.api.report_text import report_text
 from graphkin.scene import mechanism_of
 from tests.scenes import slider_crank
 
@@ -24,3 +27,7 @@ def test_powers_of_ten_are_written_as_such() -> None:
     said = describe(sheet, ("velocity", "acceleration"), "en")
     assert "·10⁻⁸ mm/s" in said
     assert "e-" not in said
+
+
+def test_arms_of_forces_are_listed_in_chinese_with_its_comma():
+    assert re.search(r"图上力臂：\S+ [\d.]+ mm、\S+ [\d.]+ mm、", report_text(graphkin.check("shaper-forces"), "zh"))
