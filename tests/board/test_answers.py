@@ -150,7 +150,7 @@ def test_the_motion_is_answeredwhere_a_load_has_no_stroke(quick: bool) -> None:
 
 @pytest.mark.parametrize(("chinese", "question"), [
     ('question："opne"；是否指“open”？', {"do": "opne"}),
-    ("点 Q：不能拖动；它的位置由其他点决定", {"do": "pull", "point": "Q", "x": 1, "y": 2}),
+    ("点 Q：没有这个点；可用的有：A、B、C、D、E、F", {"do": "pull", "point": "Q", "x": 1, "y": 2}),
     ("bar：起点与终点重合；请把它拖到别处", {"do": "build", "step": {"what": "bar", "from": [1, 2], "to": [1, 2]}}),
     ('"zz"：这里没有这个机构文件', {"do": "open", "name": "zz"}),
 ])  # fmt: skip
