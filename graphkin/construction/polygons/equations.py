@@ -32,6 +32,7 @@ from graphkin.construction.board.steps import (
     Term,
     Vector,
     VectorStep,
+    changed,
 )
 from graphkin.construction.polygons.polygons import RATE, Polygons, letter
 from graphkin.construction.polygons.vector_graph import (
@@ -94,7 +95,7 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
     add : the rate of the second relative to the first (rad/s, rad/s2)
     """
     rate = plot.rates[order][known]
-    plot.rates[order][name] = replace(rate, link=name, value=rate.value + add, same_as=rate.same_as or known)
+    plot.rates[order][name] = changed(rate, link=name, value=rate.value + add, same_as=rate.same_as or known)
 
 
 def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], add: float) -> None:
