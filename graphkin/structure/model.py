@@ -61,11 +61,6 @@ def _named(group: Element) -> Phrase:
     return named
 
 
-def _all_pairs(group: Element) -> tuple[Pair, ...]:
-    """All pairs, with those at which drivers hold links of a dyad's body together."""
-    return (*group.pairs, *(joint.pair for joint in group.joints))
-
-
 @dataclass(frozen=True)
 class RollingRelation:
     """A sum of coordinates with factors that keeps its value; ``links`` are the links that it ties.
@@ -137,18 +132,18 @@ class Driven:
     links: tuple[str] = field(init=False, repr=False, compare=False)
     members: tuple[str] = field(init=False, repr=False, compare=False)
     pairs: tuple[Pair] = field(init=False, repr=False, compare=False)
+    all_pairs: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     rolled: RollingRelation | None = field(init=False, repr=False, compare=False)
     lifted: LawCam | None = field(init=False, repr=False, compare=False)
     explicit: bool = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
-    all_pairs = property(_all_pairs)
 
     def __post_init__(self) -> None:
         driver = self.driver
         self.__dict__.update(
-            links=(self.link,), members=(self.link,), pairs=(self.pair,),
+            links=(self.link,), members=(self.link,), pairs=(self.pair,), all_pairs=(self.pair,),
             drivers=(driver,) if isinstance(driver, Driver) else (),
             rolled=driver if isinstance(driver, RollingRelation) else None,
             lifted=driver if isinstance(driver, LawCam) else None, explicit=driver.given,
@@ -172,9 +167,10 @@ class Dyad:
     ``links`` are the real links of the group in the order of the file.
 
     From these follow its ``bodies``, all ``members`` (blocks of pins included), ``pairs`` in the order of its kind,
-    the ``outer`` ones, the driven ``joints`` and ``drivers`` inside its bodies, the known links ``outside``, its words
-    ``named``, whether it ``is_two_lines``: two straight lines cross in it, so that it has one assembly only, and
-    whether it ``is_slider_on_bar``: one body slides on the other, and both turn about known points.
+    the ``outer`` ones, the driven ``joints`` and ``drivers`` inside its bodies, ``all_pairs`` with those of the joints,
+    the known links ``outside``, its words ``named``, whether it ``is_two_lines``: two straight lines cross in it, so
+    that it has one assembly only, and whether it ``is_slider_on_bar``: one body slides on the other, and both turn
+    about known points.
     """
 
     kind: DyadKind
@@ -194,6 +190,7 @@ class Dyad:
     bodies: tuple[Body, Body] = field(init=False, repr=False, compare=False)
     members: tuple[str, ...] = field(init=False, repr=False, compare=False)
     pairs: tuple[Pair, Pair, Pair] = field(init=False, repr=False, compare=False)
+    all_pairs: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
     outer: tuple[Pair, Pair] = field(init=False, repr=False, compare=False)
     joints: tuple[DrivenJoint, ...] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
@@ -201,7 +198,6 @@ class Dyad:
     is_two_lines: bool = field(init=False, repr=False, compare=False)
     is_slider_on_bar: bool = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
-    all_pairs = property(_all_pairs)
 
     @property
     def label(self) -> str:
@@ -210,11 +206,12 @@ class Dyad:
 
     def __post_init__(self) -> None:
         first, second, outer = self.first, self.second, (self.outer_first, self.outer_second)
-        members, drivers = first.links + second.links, tuple(joint.driver for joint in first.joints + second.joints)
+        members, joints = first.links + second.links, first.joints + second.joints
+        drivers, pairs = tuple(joint.driver for joint in joints), (outer[0], self.inner, outer[1])
         hung = {name for pair in outer for name in pair.links}.union(*(driver.through for driver in drivers))
         self.__dict__.update(
-            bodies=(first, second), members=members, pairs=(outer[0], self.inner, outer[1]), outer=outer,
-            joints=first.joints + second.joints, drivers=drivers, outside=frozenset(hung.difference(members)),
+            bodies=(first, second), members=members, pairs=pairs, outer=outer, joints=joints, drivers=drivers,
+            all_pairs=(*pairs, *(joint.pair for joint in joints)), outside=frozenset(hung.difference(members)),
             is_two_lines=self.kind in ("PRP", "RPP"), is_slider_on_bar=self.kind == "RPR",
         )  # fmt: skip
 
@@ -260,9 +257,9 @@ class LargerGroup:
     lifted: ClassVar[None] = None
 
     kind: str = field(init=False, repr=False, compare=False)
+    all_pairs: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
-    all_pairs = property(_all_pairs)
 
     def __post_init__(self) -> None:
         names = {name for pair in self.pairs for name in pair.links}
@@ -270,6 +267,7 @@ class LargerGroup:
         names.update(name for relation in self.rolling for name in relation.links)
         self.__dict__.update(
             kind="group of " + ", ".join(self.links), outside=frozenset(names.difference(self.members)),
+            all_pairs=self.pairs,
         )
 
 
