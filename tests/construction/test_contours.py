@@ -18,9 +18,10 @@ from graphkin.construction import execute, plan
 from graphkin.construction.board.instruments import EXACT, nudged
 from graphkin.construction.board.steps import ORDERS
 from graphkin.construction.plan import Stages, positioned
-from graphkin.construction.polygons import elements
+from graphkin.construction.polygons import elements, seen_from
 from graphkin.construction.polygons.polygons import OwnValues
 from graphkin.construction.polygons.seen_from import contours
+from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import PointRef, Symbol
@@ -78,6 +79,25 @@ ON_A_GUIDE: dict[str, Any] = {  # the contour cannot turn: one of its plates sli
     "driver": {"link": "5", "relative_to": "2", "angle": 283, "omega": -3.7, "alpha": -30},
     "sketch": {"B": [134, 157], "C": [264, 82], "D": [154, 36], "E": [103, 37], "G": [265, -55]},
 }
+IN_A_TRIAD: dict[str, Any] = {  # a plate on three bars, of which one is two with a driver; a second plate on three bars
+    "frame": {"points": {"P": [60, 0], "Q": [240, -10], "R": [330, 220]}},
+    "links": {
+        "2": {"points": ["A", "B"], "length": 100.5, "at": {"C": [52.7, 75.6], "H": [-6, -40.8], "K": [114.4, -38.8]}},
+        "3": {"points": ["D", "E"], "length": 110.5, "at": {"F": [55.2, 55.2], "L": [124, 71.5]}},
+        "4": {"points": ["A", "D"], "length": 111.8},
+        "5": {"points": ["B", "E"], "length": 114},
+        "7": {"points": ["C", "G"], "length": 76.2},
+        "8": {"points": ["G", "F"], "length": 53.9},
+        "9": {"points": ["P", "H"], "length": 67.1},
+        "10": {"points": ["Q", "K"], "length": 67.1},
+        "11": {"points": ["R", "L"], "length": 94.3},
+    },
+    "driver": {"link": "8", "relative_to": "7", "angle": -91.4, "omega": 2, "alpha": -3},
+    "sketch": {
+        "A": [100, 100], "B": [200, 90], "C": [160, 170], "D": [120, 210], "E": [230, 200], "F": [180, 260],
+        "G": [130, 240], "H": [90, 60], "K": [210, 50], "L": [250, 270],
+    },
+}  # fmt: skip
 SCENES = {
     "four-bar": FOUR_BAR, "through a block": THROUGH_A_BLOCK, "turned alike": TURNED_ALIKE, "on a guide": ON_A_GUIDE,
 }  # fmt: skip
@@ -285,3 +305,20 @@ def test_own_values_take_the_place_of_vectors_of_the_polygons_not_of_those_seen_
     seen = {vector.symbol for order in ORDERS for vector in sheet.vectors_seen(order)}
     assert seen
     assert set() == seen & set(taken)
+
+
+def test_a_special_point_of_a_contour_and_one_of_the_group_around_it_are_two_points() -> None:
+    result = graphkin.check(IN_A_TRIAD)
+    marked = [(step.point, step.link) for step in result.sheet.placing("special point")]
+    assert 2 == len(marked) == len(dict(marked))
+    assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-8 * max(abs(row.exact), 1e-3)]
+
+
+def test_a_block_of_a_contour_slides_along_its_guide(monkeypatch: pytest.MonkeyPatch) -> None:
+    joints: list[seen_from.Joint] = []
+    monkeypatch.setattr(seen_from, "contours", lambda links, between, turning: joints.extend(between) or [])
+    sheet = execute(plan(mechanism_of(THROUGH_A_BLOCK)))
+    along = {slide.links: slide.along(sheet.poses) for slide in sheet.structure.slides}
+    blocks = {links: way for links, _, way, _ in joints if way is not None}
+    assert {("5", "4"), ("3", "4")} <= blocks.keys()
+    assert [] == [links for links, way in blocks.items() if abs(cross(way, along[links])) > 1e-9]

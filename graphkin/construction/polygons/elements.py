@@ -280,8 +280,12 @@ def _mark_special(plot: Polygons, move: VectorChain) -> None:
 # -- vector graphs -----------------------------------------------------------------------------------------------------
 
 
-def _free_letters(plot: Polygons) -> Sequence[str]:
-    taken = {*plot.places, *(p for link in plot.links.values() for p in link.points)}
+def _free_letters(plot: Polygons, group: LargerGroup) -> Sequence[str]:
+    """Letters that no point has; special points of contours, and of other groups and contours, may be planned only."""
+    contours, own = [rest for _, rest in plot.contours.get(group, ())], {plot.held, *group.members}
+    plans = (plan for other, plan in plot.plans.items() if other in contours or own.isdisjoint(other.members))
+    planned = (move.end.point for plan in plans for move in plan.moves if move.is_special)
+    taken = {*plot.places, *planned, *(p for link in plot.links.values() for p in link.points)}
     return [name for name in LETTERS if name not in taken]
 
 
@@ -290,7 +294,7 @@ def _plans(plot: Polygons, group: LargerGroup, wide: bool = False) -> Iterator[G
     from graphkin.construction.polygons.group_plan import plan_group
 
     graph = _graph_of(plot, group, wide)
-    return plan_group(graph, partial(_direction, plot), _free_letters(plot))
+    return plan_group(graph, partial(_direction, plot), _free_letters(plot, group))
 
 
 def _graph_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> VectorGraph:
@@ -322,7 +326,7 @@ def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, 
     points = {}
     for name in (relation.name for relation in group.rolling):
         if name not in plot.structure.scene.contact_at and name not in plot.pitch_points:
-            letter = plot.pitch_points[name] = _free_letters(plot)[0]
+            letter = plot.pitch_points[name] = _free_letters(plot, group)[0]
             touch = plot.touch(name)
             at = plot.places[letter] = plot.board.instrument.point(touch.at)
             plot.special.add(letter)
