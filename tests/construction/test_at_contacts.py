@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 
@@ -75,6 +76,7 @@ SLOT = {
 FURTHER = {
     "driver inside": FINGER, "three contacts of one link": FEET, "superposition": TWO_FACES, "circular slot": SLOT,
     "flat face by law": "cam-flat-face",
+    "links named by words": json.loads(re.sub(r'"([1-5])(?=[".])', r'"link\1', json.dumps(TWO_FACES))),
 }  # fmt: skip
 
 

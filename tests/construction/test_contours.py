@@ -148,6 +148,16 @@ def test_steps_name_the_equation_in_which_their_vector_stands(name: str) -> None
 
 
 @pytest.mark.parametrize("name", SCENES)
+def test_what_an_equation_takes_as_seen_from_a_held_link_is_drawn_so(name: str) -> None:
+    sheet = checked(name).sheet
+    terms = [t for e in sheet.equations if e.diagram == "velocity" for side in e.sides for t in side]
+    found = [t.symbol for t in terms if t.direction.relation == "found" and t.symbol.to]
+    found = [s for s in found if s.to and s.to.point not in sheet.special_points]
+    ways = {(v.symbol.of, v.symbol.to) for v in sheet.vectors_seen("velocity")}
+    assert [] == [s for s in found if (s.of, s.to) not in ways and (s.to, s.of) not in ways]
+
+
+@pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_no_step_has_blanks_or_takes_accelerations_for_velocities(name: str, language: str) -> None:
     sheet = checked(name).sheet
@@ -314,11 +324,21 @@ def test_a_special_point_of_a_contour_and_one_of_the_group_around_it_are_two_poi
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-8 * max(abs(row.exact), 1e-3)]
 
 
-def test_a_block_of_a_contour_slides_along_its_guide(monkeypatch: pytest.MonkeyPatch) -> None:
+def joints_in(scene: dict[str, Any]) -> list[seen_from.Joint]:
     joints: list[seen_from.Joint] = []
-    monkeypatch.setattr(seen_from, "contours", lambda links, between, turning: joints.extend(between) or [])
-    sheet = execute(plan(mechanism_of(THROUGH_A_BLOCK)))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(seen_from, "contours", lambda links, between, turning: joints.extend(between) or [])
+        plan(mechanism_of(scene))
+    return joints
+
+
+def test_a_block_of_a_contour_slides_along_its_guide() -> None:
+    sheet = checked("through a block").sheet
     along = {slide.links: slide.along(sheet.poses) for slide in sheet.structure.slides}
-    blocks = {links: way for links, _, way, _ in joints if way is not None}
+    blocks = {links: way for links, _, way, _ in joints_in(THROUGH_A_BLOCK) if way is not None}
     assert {("5", "4"), ("3", "4")} <= blocks.keys()
     assert [] == [links for links, way in blocks.items() if abs(cross(way, along[links])) > 1e-9]
+
+
+def test_the_hinge_at_which_a_driver_acts_is_held_in_a_contour() -> None:
+    assert [{"2", "5"}] == [{*links} for links, _, _, held in joints_in(FOUR_BAR) if held]

@@ -85,3 +85,18 @@ def test_any_cylinder_between_two_floating_links_is_drawn_as_it_is_solved(seed: 
 @pytest.mark.parametrize("seed", range(6, 10))
 def test_its_centres_agree_too(seed: int) -> None:
     assert graphkin.centres(floating_cylinder(seed)).ok
+
+
+def test_a_triangle_of_which_two_links_slide_on_each_other_is_drawn_as_it_is_solved() -> None:
+    checked = graphkin.check({
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 368], "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "P"], "length": 100, "guides": {"g": {"through": [0, 50], "angle": 0}}},
+            "2": {"points": ["Q", "D"], "length": 200, "on": "1.g", "angle_on": 60},
+            "3": {"points": ["P"]}, "4": {"points": ["Q"], "on": "3"}, "5": {"points": ["D"], "on": "0.h"},
+        },
+        "driver": {"slide": "4", "travel": 158, "velocity": 40, "acceleration": -25},
+        "sketch": {"P": [87, 50], "Q": [191, 168], "D": [191, 368]},
+    })  # fmt: skip
+    assert ["2/1"] == [t.pair.key for group in checked.sheet.structure.larger_groups for t in group.triangles]
+    assert (True, True) == (checked.ok, checked.complete)
