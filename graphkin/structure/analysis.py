@@ -77,7 +77,8 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     given = match(unknowns)
     if len(given) < len(unknowns):
         raise Unsolvable("mobility", _wrong_part(structure, unknowns, given), *_loose_ends(structure))
-    if held := driven_twice(scene, structure.touching, structure.links, structure.slides):
+    among = structure.touching or any(d.relative_to != scene.frame.name for d in scene.drivers)
+    if among and (held := driven_twice(scene, structure.touching, structure.links, structure.slides)):
         said = (Phrase("slides wheels and other drivers give", driver=d.key, link=d.link, other=d.relative_to)
                 for d in held)  # fmt: skip
         raise Unsolvable("mobility", *(Problem(Phrase("status mobility"), one, "drive another pair") for one in said))

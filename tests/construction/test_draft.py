@@ -385,3 +385,20 @@ def test_a_train_has_room_for_its_pitch_circles() -> None:
 def test_a_cam_has_room_for_its_outline() -> None:
     # from 40 mm behind the axis to 60 mm before it, where the lift of 20 mm is greatest
     assert 0.1 == pytest.approx(draft(mechanism_of("cam-flat-face")).extents["mechanism"][1], rel=1e-3)
+
+
+def test_a_crossed_parallelogram_goes_on_through_its_change_point():
+    mapping = {
+        "frame": {"points": {"A": [0, 0], "D": [80, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40},
+            "2": {"points": ["B", "C"], "length": 80},
+            "3": {"points": ["D", "C"], "length": 40},
+        },
+        "driver": {"link": "1", "angle": 45, "omega": 1},
+        "sketch": {"C": [71.4, -39.1]},
+    }
+    # frame and rod cross: the tangents of half the angles are as -(80 + 40) to 80 - 40
+    follower = 2 * math.atan(-3 * math.tan(math.radians(-91.136 / 2)))
+    sheet = draft(mechanism_of(mapping), at={"1": math.radians(-91.136)})
+    assert cmath.rect(1, follower) == pytest.approx(sheet.poses["3"].axis, abs=1e-9)

@@ -37,6 +37,7 @@ SAME_HOLE = 1e-9
 """Points of a link that lie nearer to each other on paper (mm) are pricked once."""
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 MEETING = 1e-5  # of the size of the mechanism: a step that moves no link farther may pass a change point
+TOLD = 0.25  # so much nearer to an assembly than to the other a guess tells which is meant
 
 
 def apart(poses: Poses, other: Poses) -> float:
@@ -478,17 +479,21 @@ def meet(paper: PlacedLinks, dyad: Dyad) -> Intersection:
 def met_near(paper: PlacedLinks, dyad: Dyad, guess: Poses, before: Poses | None = None) -> Poses | None:
     """The assembly of a dyad nearest to a guess.
 
-    ``before`` are the poses from which all links are followed: the dyad keeps the assembly that it has in them, for a
-    guess says little where another comes near; only a short step passes from one to another, where they meet.
+    ``before`` are the poses from which all links are followed: the dyad keeps the assembly that it has in them, and
+    there is none where the guess does not tell the two clearly; only a short step passes from one to the other, where
+    they meet.
     """
     intersection = meet(paper, dyad)
     branch = intersection.nearest(guess)
     if branch is None:
         return None
     poses = intersection.poses[branch]
-    if before is not None and len(intersection.poses) > 1 and moved(poses, before) > MEETING:
-        kept = meet(replace(paper, poses=dict(before)), dyad).nearest(before)
-        return poses if branch == kept else None
+    if before is not None and len(intersection.poses) > 1:
+        other = intersection.poses[1 - branch]
+        if apart(poses, other) > SAME_HOLE and apart(poses, guess) > TOLD * apart(other, guess):
+            return None
+        if moved(poses, before) > MEETING and branch != meet(replace(paper, poses=dict(before)), dyad).nearest(before):
+            return None
     return poses
 
 
