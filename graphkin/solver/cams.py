@@ -23,7 +23,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.laws import SEAM, TURN, FollowerLaw, Lift, LiftPiece
-from graphkin.scene.pairs import LawCam, SlidingFollower
+from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
 from graphkin.search import intervals, last_true, resolve
 from graphkin.solver.algebra.pose import Array, turned
 from graphkin.structure import Structure
@@ -279,9 +279,13 @@ def least_base(cam: LawCam) -> float | None:
         return False not in _judged(larger, rise, fall) and not any(True for _ in _undercut(larger))
 
     low = high = cam.base_of_profile
+    # on a line a larger circle is the better; about a pivot only some circles may do, none that the bar does not reach
+    motion, step, most = cam.motion, 1.25, LARGEST * cam.base
+    if isinstance(motion, SwingingFollower):
+        step, most = 1.02, abs(cam.axis - motion.centre) + motion.arm
     while not good(high):
-        low, high = high, 1.25 * high
-        if high > LARGEST * cam.base:
+        low, high = high, step * high
+        if high > most:
             return None
     return last_true(lambda radii: np.array([good(float(r)) for r in radii]), high, low, 2, NEAREST * cam.base)
 

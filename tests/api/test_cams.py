@@ -414,3 +414,17 @@ def test_the_angle_of_a_piece_that_is_too_narrow_for_it_stands_below_the_marks_o
 def test_a_flat_face_square_to_a_slanting_line_has_no_pressure_angle():
     slanting = graphkin.read("cam-flat-face").replace("frame.guides.g.angle", 10.2)
     assert {"value": 0.0, "degree": 0.0} == graphkin.cam(slanting).data["cams"]["1"]["pressure"]["rise"]
+
+
+def test_a_base_circle_between_others_that_do_not_do_is_found_for_a_swinging_follower():
+    law = [{"to": 239.4, "rise": 11.43, "by": "cycloidal"}, {"to": 240.1}, {"to": 267.6, "fall": 11.43, "by": "4567"},
+           {"to": 360}]  # fmt: skip
+    made = graphkin.cam({
+        "frame": {"points": {"A": [10.2, 17.2], "C": [125.7, 9.2]}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["C", "B"], "length": 90.5}},
+        "cams": {"1": {"follower": "2", "law": law, "sense": -1, "base": {"r": 30}, "allow": {"rise": 30, "fall": 25}}},
+        "sketch": {"B": [70, -63]}, "driver": {"link": "1", "angle": 0, "omega": 1},
+    })["1"]  # fmt: skip
+    assert made.wanted_base is not None
+    kept = [study_cam(replace(made.cam, base=made.wanted_base * share)).ok for share in (0.99, 1 + 1e-6, 1.1)]
+    assert [False, True, False] == kept
