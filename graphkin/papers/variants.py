@@ -288,7 +288,8 @@ def _uncut(scene: Mechanism) -> Iterator[Phrase]:
     for cam in scene.cams:
         for stretch in study_cam(cam).undercut:
             begin, last = (f"{math.degrees(angle):.0f}" for angle in stretch)
-            yield Phrase("unfit profile", link=cam.link, begin=begin, end=last)
+            key = "unfit profile" if begin != last else "unfit corner of profile"
+            yield Phrase(key, link=cam.link, begin=begin, end=last)
 
 
 def _remarks(sheet: Sheet, asked: tuple[Symbol, ...], crossing: float) -> Iterator[Phrase]:

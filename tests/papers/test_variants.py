@@ -392,3 +392,10 @@ def test_what_cannot_vary_is_refused_in_its_time(monkeypatch):
     (failure,) = problem_set(source, variants=1, workers=1).failures
     assert 1.5 > time.process_time() - begun
     assert re.search(r"cannot be drawn more closely than to 0.1 % \(\d+ times\); ask for less", str(failure.why))
+
+
+def test_a_profile_that_cannot_be_cut_where_the_velocity_drops_is_told_at_one_place() -> None:
+    law = [{"to": 120, "rise": 20, "by": "uniform"}, {"to": 180}, {"to": 300, "fall": 20, "by": "345"}, {"to": 360}]
+    scene = graphkin.read("cam-flat-face").replace("cams.1.law", law)
+    told = [str(phrase) for phrase in room._uncut(mechanism_of(scene))]
+    assert ["the profile of cam 1 cannot be cut at 120 degrees"] == told
