@@ -211,6 +211,6 @@ def study_time(structure: Structure, asked: Sequence[Symbol] = ()) -> TimeStudy:
     turning = [d.link for d in scene.drivers if d.turns_about(scene.frame.name)]
     sliding = [d.key for d in scene.drivers if not d.turns]
     start = over_time(structure, np.array(axis.ends[:1]))
-    turning += [name for name in output_links(scene) if name not in turning]
-    sliding += [key for key in output_slides(start) if key not in sliding]
+    turning += output_links(scene)
+    sliding += output_slides(start)
     return TimeStudy(axis, (*map(link_quantities, turning), *map(slide_quantities, sliding)))

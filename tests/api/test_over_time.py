@@ -273,3 +273,20 @@ def test_a_rate_grows_without_bound_where_a_law_leads_to_an_end_of_the_motion():
     nothing = {"value": None, "why": "it grows without bound there", "time": pytest.approx(end[1], rel=1e-9)}
     assert [nothing, nothing] == [outputs[rate]["least"] for rate in ("v_3/0", "a_3/0")]
     assert "v_3/0: grows without bound at 0.14928 s, greatest" in swept.text
+
+
+def test_the_greatest_angle_of_a_spline_counts_its_whole_turns_between_moments_that_were_looked_at():
+    table = [[0, 20], [0.3, 700], [1, 20]]
+    # natural: the second rate at the middle moment, by the condition that the first is the same on both sides
+    second = 6 * ((20 - 700) / 0.7 - (700 - 20) / 0.3) / (2 * 1)
+    time = mpmath.findroot(lambda t: -second * (1 - t) ** 2 / 1.4 + (20 - 700) / 0.7 + second * 0.7 / 6, 0.4)
+    angle = second * (1 - time) ** 3 / 4.2 + 20 + (680 / 0.7 - second * 0.7 / 6) * (1 - time)
+    outputs = graphkin.sweep(crank(time=0.4, law={"table": table}), find=["theta_1"], positions=3).data["outputs"]
+    assert float(mpmath.radians(angle)) == pytest.approx(outputs["theta_1"]["greatest"]["value"], rel=1e-11)
+    assert float(time) == pytest.approx(outputs["theta_1"]["greatest"]["time"], rel=1e-5)
+
+
+def test_an_angle_that_changes_little_has_its_extremes():
+    law = {"from": 100, "to": 100.05, "duration": 0.5, "by": "345"}
+    outputs = graphkin.sweep(crank(time=0.4, law=law), find=["theta_1"], positions=3).data["outputs"]
+    assert [100, 100.05] == pytest.approx([math.degrees(end["value"]) for end in outputs["theta_1"].values()])

@@ -117,6 +117,9 @@ def test_positions_of_a_sweep_behind_a_limit_are_reached_the_other_way_round() -
     motion = solve(mechanism_of("sixbar-AE70"), sweep=36)
     degrees = np.degrees(motion.values[:, 0]) % 360
     assert set(np.flatnonzero(motion.ok)) == set(np.flatnonzero((degrees < 58.99) | (degrees > 301.01)))
+    # what is not reached either way stands where it was asked for
+    asked = np.degrees(motion.values[0, 0]) + 10 * np.arange(36)
+    assert np.degrees(motion.values[~motion.ok, 0]) == pytest.approx(asked[~motion.ok])
 
 
 def test_more_than_a_turn_is_the_same_as_without_it() -> None:

@@ -160,6 +160,12 @@ def test_a_change_point_is_a_dead_point_to_start_from(near: float) -> None:
     assert math.radians(near - 1) == pytest.approx(found.values[0], abs=1e-14)
 
 
+def test_dead_points_half_a_turn_away_are_found() -> None:
+    driver = {"link": "1", "from": "dead point", "angle": -1, "omega": 10}
+    with pytest.raises(Unsolvable, match="there are dead points at -180 deg, 0 deg"):
+        structure_of(mechanism_of(scenes.four_bar(50, 100, 50, 100, driver=driver)))
+
+
 def test_a_dead_point_to_start_from_is_refused_by_the_link_that_rolls() -> None:
     scene = {
         **scenes.four_bar(20, 90, 40, 100, driver={"link": "w", "from": "dead point", "angle": 1, "omega": 10}),

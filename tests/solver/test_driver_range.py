@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from graphkin.errors import CallError, Unsolvable
-from graphkin.scene import library_text, mechanism_of_text
+from graphkin.scene import library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, driver_range, solve, structure_of
@@ -158,3 +158,25 @@ def test_seams_are_counted_once_and_the_ends_of_a_turn_as_one() -> None:
     assert low == each_once(places, low, high, True)[0]
     inside = each_once(np.array([low, low + 1e-12, low + 0.5, high - 1e-12, high]), low, high, False)
     assert [low + 0.5] == inside.tolist()
+
+
+def test_a_change_point_on_the_way_to_an_end_beyond_keeps_its_place() -> None:
+    # a parallelogram, and on its coupler a rod that holds the crank back beyond half a turn
+    scene = scenes.four_bar(100, 300, 100, 300, driver={"link": "1", "angle": 20, "omega": 1}, sketch={"C": [390, 40]})
+    scene["frame"]["points"]["G"] = [0, 210]
+    scene["links"] |= {"5": {"points": ["B", "F"], "length": 150}, "6": {"points": ["G", "F"], "length": 150}}
+    reach = driver_range(mechanism_of(scene))
+    assert math.degrees(math.asin((100**2 + 210**2 - 300**2) / (2 * 100 * 210))) == pytest.approx(
+        180 - math.degrees(reach.value(np.array(reach.ends[1])))
+    )
+    assert [0, 180] == sorted(round(math.degrees(point.values[0]), 6) for point in reach.change_points)
+
+
+def test_wheels_that_stand_in_their_places_close_when_all_have_turned_back() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [50, 0]}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["D"]}},
+        "gears": {"g": {"between": ["1", "2"], "teeth": [20, 30]}},
+        "driver": {"link": "1", "angle": 10, "omega": 1},
+    }
+    assert 3 == driver_range(mechanism_of(scene)).turns

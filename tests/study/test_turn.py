@@ -19,7 +19,7 @@ from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
-from graphkin.study.extremes import trace
+from graphkin.study.extremes import Extreme, Traced, trace
 from graphkin.study.quantities import course_of
 from graphkin.study.turn import Output, TurnStudy, four_bar_class, study_turn
 from graphkin.study.turn_data import to_json
@@ -850,6 +850,17 @@ def test_a_distance_that_comes_to_nothing_is_0_there_and_nowhere_else() -> None:
     assert distance.least is not None
     assert (0.0, pytest.approx(math.atan2(120, 90), abs=1e-12)) == (distance.least.value, distance.zeros[0])
     assert 1 == len(distance.zeros)
+
+
+def test_a_distance_that_comes_near_to_nothing_is_what_it_is() -> None:
+    (distance,) = trace(driver_range(mechanism_of(scenes.slider_crank(50, 50.02))), [Symbol.parse("d_C/A")])
+    assert distance.least is not None
+    assert (0.00002, ()) == (pytest.approx(distance.least.value, rel=1e-9), distance.zeros)
+
+
+def test_of_extremes_that_differ_little_the_furthest_is_the_greatest() -> None:
+    first, second = (Extreme("max", place, place, value) for place, value in ((1.0, 2.0), (3.0, 2.001)))
+    assert second == Traced(Symbol.parse("v_C"), (first, second), ()).greatest
 
 
 def told(scene: str | dict[str, object], language: str = "en") -> list[str]:
