@@ -8,6 +8,7 @@ mechanism, and all such designs are computed together.  The others are followed 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,7 +20,7 @@ from graphkin.solver.algebra.expressions import Code, Name
 from graphkin.solver.algebra.pose import Array, turned
 from graphkin.solver.drivers import GivenValues, UniformGrid, own_values
 from graphkin.solver.path.assemblies import choose_modes
-from graphkin.solver.path.driver_range import range_from
+from graphkin.solver.path.driver_range import DriverRange, range_from
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.structure import analyse
 
@@ -144,22 +145,28 @@ class PreparedMechanisms:
         changed = {name: complex(numbers[k]) for name, numbers in self.given.items()}
         return with_dimensions(self.ready.structure.scene, changed)
 
+    def reach(self, k: int) -> DriverRange:
+        """The range of a design by its number, in the assembly that the mechanism has at its own position.
+
+        Raises
+        ------
+        Unsolvable, SceneError : it cannot be assembled
+        """
+        scene = self.mechanism(k)
+        structure, own_modes = analyse(scene), self.ready.range.modes(np.zeros(1))
+        modes = choose_modes(structure)
+        for i, dyad in structure.dyads.items():
+            if not dyad.is_two_lines:
+                modes[i] = own_modes[i][0]
+        return range_from(structure, modes, own_values(scene))
+
     def _alone(self) -> Iterator[tuple[int, PreparedMechanism]]:
         """The designs that are followed one by one, by their numbers; without those that cannot be assembled."""
         ready = self.ready
         for k in np.flatnonzero(~self.together).tolist():
-            scene = self.mechanism(k)
-            try:
-                structure = analyse(scene)
-                modes = choose_modes(structure)
-            except (Unsolvable, SceneError):
-                continue
-            own_modes = ready.range.modes(np.zeros(1))
-            for i, dyad in structure.dyads.items():
-                if not dyad.is_two_lines:
-                    modes[i] = own_modes[i][0]
-            along = range_from(structure, modes, own_values(scene))
-            yield k, prepare(structure, ready.wanted, ready.units, ready.bounded, along)
+            with suppress(Unsolvable, SceneError):
+                along = self.reach(k)
+                yield k, prepare(along.structure, ready.wanted, ready.units, ready.bounded, along)
 
     def sweep(self, n: int, fast: bool = False) -> tuple[Array, Array, Array]:
         """The columns of all designs over the whole range, as for one mechanism.

@@ -529,7 +529,9 @@ def _followed(sweep: Sweep, number: int) -> FollowedDesign | tuple[str, Wording]
     try:
         design, source = sweep.base, sweep.source
         if isinstance(source, PreparedMechanisms):
-            design = replace(design, scene=source.mechanism(number))
+            reach = source.reach(number)
+            design = replace(design, scene=reach.scene)
+            design.__dict__.update(structure=reach.structure, reach=reach)
         elif source is not None:
             replaced = applied(source, sweep.designs.keys, sweep.designs[number])
             design = replace(design, scene=standing(mechanism_of(replaced)))

@@ -308,3 +308,15 @@ def test_each_design_that_does_not_turn_fully_has_its_own_range():
 def test_an_angle_at_a_joint_is_not_given_over_designs():
     with pytest.raises(graphkin.CallError, match="gamma_4-5 are not given over designs"):
         graphkin.prepare(SHAPER, find=["v_C", "gamma_4-5"]).over({"links.2.length": [80, 90]})
+
+
+def test_the_table_of_a_design_keeps_the_assembly_of_the_scene_as_its_arrays_do():
+    # the sketch lies so near to the line from B to D that it would choose the other assembly where D stands higher
+    scene = scenes.four_bar(178, 241, 118, 184, sketch={"C": [123.4, 85.9], "E": [900, -100]})
+    scene["frame"]["guides"] = {"h": {"through": [0, -100], "angle": 0}}
+    scene["links"] |= {"6": {"points": ["C", "E"], "length": 193}, "7": {"points": ["E"], "on": "4.h"}}
+    scene["driver"]["angle"] = 71
+    turn = graphkin.prepare(scene, find=["C"]).over({"frame.points.D.y": [40]}).sweep(8)
+    assert turn.ok[0].tolist() == (turn.table["status"] == "ok").tolist()
+    assert np.isfinite(turn["C"][0]).tolist() == np.isfinite(turn.table["x_C"]).tolist()
+    assert not turn.ok.all()
