@@ -104,12 +104,13 @@ def _fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit |
     size = scene.size
     speed = _most([np.abs(p.v) + np.abs(p.omega) * size for p in everything])
     push = _most([np.abs(p.a) + (np.abs(p.alpha) + p.omega**2) * size for p in everything])
+    arm = max((abs(link.points[p] - link.points[q]) for p, q in combinations(shared, 2)), default=size)
     residuals = [[np.abs(a.z - b.z) / size, np.abs(a.v - b.v), np.abs(a.a - b.a)] for a, b in gaps]
     for s in slides:
         seen = poses[s.b].fixed(s.guide.through, s.guide.direction).inverse().of(pose)
         turn = seen.u * np.conj(s.turn)
         residuals.append([np.abs(seen.z.imag) / size, np.abs(seen.v.imag), np.abs(seen.a.imag)])
-        residuals.append([np.abs(turn - 1), np.abs(seen.omega) * size, np.abs(seen.alpha) * size])
+        residuals.append([np.abs(turn - 1) * arm / size, np.abs(seen.omega) * size, np.abs(seen.alpha) * size])
     place, velocity, acceleration = (_most([m[k] for m in residuals]) for k in range(3))
     scale = np.full_like(speed, size), speed, push
     return Fit(pose, place, _part(velocity, speed), _part(acceleration, push), scale)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import math
+import re
+from typing import Any
+
 import pytest
 
 from graphkin.errors import Unsolvable
-from graphkin.scene import mechanism_of_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import solve
 from tests import scenes
 
@@ -68,6 +72,28 @@ def test_with_a_driver_too_many_no_link_is_to_be_left_out() -> None:
 def test_a_redundant_link_that_does_not_fit_is_named_with_its_miss() -> None:
     text = scenes.DOUBLE_PARALLELOGRAM.replace('"E"]\nlength = 100', '"E"]\nlength = 101')
     assert "links.4.redundant: it misses its joints by 1 mm" in refused(text)
+
+
+@pytest.mark.parametrize(("link", "miss"), [
+    ({"length": math.hypot(20, 10), "on": "0.h"}, 20 * math.sin(math.atan(0.5) / 2) * math.sqrt(5)),  # held askew
+    ({"length": math.hypot(20, 10.002)}, 0.0008942),
+])  # fmt: skip
+def test_the_miss_of_a_redundant_link_is_that_of_its_ends(link: dict[str, Any], miss: float) -> None:
+    scene = scenes.slider_crank(50, 120)
+    scene["links"]["3"]["at"] = {"E": [30, 0], "F": [50, 10]}
+    scene["links"]["4"] = {"points": ["E", "F"], "redundant": True, **link}
+    with pytest.raises(Unsolvable) as refusal:
+        solve(mechanism_of(scene))
+    told = re.search(r"it misses its joints by ([\d.e-]+) mm", str(refusal.value))
+    assert told is not None
+    assert miss == pytest.approx(float(told[1]), rel=1e-3)
+
+
+def test_a_redundant_link_stands_between_its_joints_wherever_they_lie_on_it() -> None:
+    scene = scenes.slider_crank(50, 120)
+    scene["links"]["3"]["at"] = {"E": [30, 0], "F": [50, 10]}
+    scene["links"]["4"] = {"points": ["E", "X"], "length": 10, "at": {"F": [10, -20]}, "redundant": True}
+    assert math.pi / 2 == pytest.approx(solve(mechanism_of(scene)).angle("4")[0])
 
 
 def test_a_redundant_link_that_would_lock_is_refused() -> None:
