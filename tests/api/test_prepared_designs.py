@@ -140,7 +140,7 @@ def test_bounds_hold_for_designs():
 
 @pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
 def test_compiled_designs_are_those_of_numpy():
-    designs = {"links.2.length": [80, 90], "driver.rpm": [-60, 70]}
+    designs = {"links.2.length": [80, 90], "driver.rpm": [-60, 70], "driver.angle": [10, 200]}
     slow, fast = (graphkin.prepare(SHAPER, find="a_C", fast=f).over(designs).sweep(100).values for f in (False, True))
     assert np.abs(fast - slow).max() < 1e-13 * np.abs(slow).max()
 

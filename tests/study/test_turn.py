@@ -18,10 +18,10 @@ from graphkin.api.report_text import turn_text
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import driver_range
+from graphkin.solver import driver_range, structure_of
 from graphkin.study.extremes import Extreme, Traced, trace
 from graphkin.study.quantities import course_of
-from graphkin.study.turn import Output, TurnStudy, four_bar_class, study_turn
+from graphkin.study.turn import Output, TurnStudy, four_bar_class, loops, study_turn
 from graphkin.study.turn_data import to_json
 from tests import scenes
 from tests.mechanisms import random_scene, redriven
@@ -341,6 +341,25 @@ def test_a_guide_bar_at_a_change_point_goes_round_unless_its_pivot_lies_outside_
 )
 def test_inversion_is_named(scene: str, name: str) -> None:
     assert turn_of(scene).loops[0].name == name
+
+
+def test_the_offset_of_a_bar_in_a_block_is_that_of_both_pivots_across_the_guide() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0], "C": [200, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 60},
+            "2": {"points": ["B"], "guides": {"s": {"through": [0, 10], "angle": 0}}},
+            "3": {"points": ["P"], "on": "2.s", "at": {"C": [0, 15]}},
+        },
+        "driver": {"link": "1", "angle": 50, "omega": 3},
+    }
+    (loop,) = loops(structure_of(mechanism_of(scene)))
+    assert {"crank": 0.06, "centres": 0.2, "offset": 0.025} == pytest.approx(loop.lengths)
+
+
+def test_a_rod_as_long_as_its_crank_lets_it_turn_fully() -> None:
+    (loop,) = loops(structure_of(mechanism_of(scenes.slider_crank(50, 50))))
+    assert ("in-line slider-crank at a change point", ("1",)) == (loop.name, loop.turns)
 
 
 @pytest.mark.parametrize("name", ["fourbar-150-500-300-400", "shaper-scheme-2", "slotter-75-150"])
