@@ -357,6 +357,14 @@ def test_the_offset_of_a_bar_in_a_block_is_that_of_both_pivots_across_the_guide(
     assert {"crank": 0.06, "centres": 0.2, "offset": 0.025} == pytest.approx(loop.lengths)
 
 
+def test_the_offset_of_a_slider_is_that_of_its_pin() -> None:
+    scene = scenes.slider_crank(30, 100)
+    scene["frame"]["guides"]["h"]["through"] = [0, -16]
+    scene["links"]["3"] = {"points": ["P"], "on": "0.h", "at": {"C": [5, 12]}}
+    (loop,) = loops(structure_of(mechanism_of(scene)))
+    assert {"crank": 0.03, "rod": 0.1, "offset": 0.004} == pytest.approx(loop.lengths)
+
+
 def test_a_rod_as_long_as_its_crank_lets_it_turn_fully() -> None:
     (loop,) = loops(structure_of(mechanism_of(scenes.slider_crank(50, 50))))
     assert ("in-line slider-crank at a change point", ("1",)) == (loop.name, loop.turns)
