@@ -326,13 +326,15 @@ def centres(
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Centroded(OfScene, Result):
-    """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m)."""
+    """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m);
+    ``exact`` is the centre at this position by the solver (m), not a number where the link does not turn."""
 
     table_file = "centrode.csv"
 
     centres: Centres
     motion: Motion
     curves: Centrode
+    exact: complex
     link: str
     point: str
     language: str | None = None
@@ -345,10 +347,10 @@ class Centroded(OfScene, Result):
     @property
     def ok(self) -> bool:
         """Whether the centre drawn at this position lies on the fixed centrode, to 1e-9 of the mechanism's size."""
-        point, start = self.centres.of(self.link, self.mechanism.frame.name).point, complex(self.curves.fixed[0])
-        if point is None or not np.isfinite(start):
+        point = self.centres.of(self.link, self.mechanism.frame.name).point
+        if point is None or not np.isfinite(self.exact):
             return True
-        return abs(point / self.centres.mm - start) <= 1e-9 * max(self.mechanism.size, abs(start))
+        return abs(point / self.centres.mm - self.exact) <= 1e-9 * max(self.mechanism.size, abs(self.exact))
 
     @property
     def path(self) -> NDArray[np.complex128]:
@@ -419,7 +421,7 @@ def centrodes(
     SceneError, CallError : the file or the call is wrong
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    from graphkin.study.centrodes import steady, turning_centrodes
+    from graphkin.study.centrodes import centrode, steady, turning_centrodes
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given, values = placed(as_scene(scene), at)
@@ -434,5 +436,6 @@ def centrodes(
     solved_here(given, values)
     given = steady(given)
     motion, curves = turning_centrodes(given, values, link)
+    exact = complex(centrode(solved_here(given, values), link).fixed[0])
     found = found_centres(given, values)
-    return Centroded(found, motion, curves, link, point, language, convention).saved(out, formats)
+    return Centroded(found, motion, curves, exact, link, point, language, convention).saved(out, formats)

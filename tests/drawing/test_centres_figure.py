@@ -38,6 +38,7 @@ from graphkin.drawing.write.svg import svg_bytes
 from graphkin.errors import CallError, Disagreement
 from graphkin.scene import mechanism_of
 from tests.mechanisms import random_scene
+from tests.scenes import slider_crank
 
 CLASSROOM = ("fourbar-150-500-300-400", "slider-crank-offset", "shaper-scheme-2", "sixbar-420rpm", "whitworth")
 
@@ -157,6 +158,14 @@ def test_the_moving_centrode_touches_the_fixed_one_at_the_centre() -> None:
     mm = found.centres.mm
     moving = pose.origin + pose.axis * complex(found.curves.moving[0]) * mm
     assert abs(moving - complex(found.curves.fixed[0]) * mm) <= 1e-9 * abs(moving)
+
+
+def test_the_centre_that_is_drawn_lies_on_the_centrode_of_a_mechanism_that_a_slide_drives() -> None:
+    scene = slider_crank(50, 120, driver={"slide": "3", "travel": 150, "velocity": 40})
+    found = centrodes(scene, link="2")
+    turn = math.acos((50**2 + 150**2 - 120**2) / (2 * 50 * 150))  # the crank's; its line meets the upright through C
+    assert complex(0.15, 0.15 * math.tan(turn)) == pytest.approx(found.exact)
+    assert found.ok
 
 
 @pytest.mark.parametrize("link", ["1", "3", "9"])
