@@ -13,7 +13,7 @@ from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed, written
 from graphkin.words.symbols import RichText, Words
-from graphkin.words.written import MOST, amount, on_paper, true_minus
+from graphkin.words.written import MOST, amount, on_paper, printed
 
 SURE = 1e-6  # of the largest rate: one that may err by more, and is no larger than that, is nothing but rounding
 TOGETHER = 1e-9  # mm: places nearer than this are one
@@ -155,8 +155,9 @@ def _of_driver(centres: Centres, turning: Turning, driver: Driver) -> tuple[_Rat
     if not driver.turns:
         per_mm, speed = amount(centres.sheet.scales.length / units.metres), amount(abs(driver.values[1]) / units.metres)
         rate = _Rate(sign + written.quotient(speed, written.product(near, per_mm), MOST), written.figures(near))
-        return rate, Phrase("centre from cylinder", **gaps, rate=rate.size, scale=f"{per_mm} {units.length}/mm",
-                            speed=units.of("velocity").beside(speed))  # fmt: skip
+        return rate, Phrase("centre from cylinder", **gaps, rate=printed(rate.size),
+                            scale=f"{printed(per_mm)} {units.length}/mm",
+                            speed=units.of("velocity").beside(printed(speed)))  # fmt: skip
     if common is None:
         return None
     far, relative = _apart(common, its.point), amount(abs(driver.values[1]))
@@ -165,7 +166,7 @@ def _of_driver(centres: Centres, turning: Turning, driver: Driver) -> tuple[_Rat
     same = dot(common - its.point, new.point - its.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
     return rate, Phrase(key, **gaps, known_centre=centres.of(*driver.links).pair, far=far,
-                        rate=true_minus(rate.written))  # fmt: skip
+                        rate=printed(rate.written))  # fmt: skip
 
 
 def _of_link(
@@ -195,12 +196,12 @@ def _of_link(
         value = written.quotient(over, near, min(carried, MOST))
         rate = _Rate(sign * (value != "0") + value, min(carried, MOST))
     if far is None or its.point is None:
-        return rate, Phrase("centre from slider", **gaps, near=near, rate=rate.size)
+        return rate, Phrase("centre from slider", **gaps, near=near, rate=printed(rate.size))
     same = dot(its.point - common.point, new.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
     if far == "0" and near != "0":
         key = "centre stands still"
-    return rate, Phrase(key, **gaps, far=far, near=near, rate=true_minus(rate.written))
+    return rate, Phrase(key, **gaps, far=far, near=near, rate=printed(rate.written))
 
 
 def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> Phrase | None:
@@ -223,7 +224,7 @@ def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> P
     rate = rates[link]
     scale, speed = _speed(centres, rate.size, length, min(rate.carried, written.figures(length)))
     return Phrase(
-        "centre speed", symbol=symbol, link=link, centre=centre.pair, end=end, rate=rate.size, length=length,
+        "centre speed", symbol=symbol, link=link, centre=centre.pair, end=end, rate=printed(rate.size), length=length,
         scale=scale, speed=speed,
     )  # fmt: skip
 
@@ -233,7 +234,7 @@ def _speed(centres: Centres, rate: str, length: str, carried: int) -> tuple[str,
     units = centres.scene.units.rates
     per_mm = amount(centres.sheet.scales.length / units.metres)
     speed = written.product(rate, length, per_mm, carried=carried)
-    return f"{per_mm} {units.length}/mm", units.of("velocity").beside(speed)
+    return f"{printed(per_mm)} {units.length}/mm", units.of("velocity").beside(printed(speed))
 
 
 def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:
@@ -266,10 +267,10 @@ def _of_sliding(
         return None
     length = _apart(centres.point(point), centre.point)
     symbol = Symbol("v", PointRef(point, guiding), PointRef(point, sliding))
-    second = f"({guide_rate.written})" if guide_rate.written.startswith("-") else guide_rate.written
-    first = true_minus(pinned_rate.written)
+    first, second = printed(pinned_rate.written), printed(guide_rate.written)
     scale, speed = _speed(centres, difference, length, min(carried, written.figures(length)))
     return Phrase(
         "centre sliding", symbol=symbol, link=pinned, guide=guiding, centre=centre.pair, point=PointRef(point),
-        rate=first, guide_rate=true_minus(second), length=length, scale=scale, speed=speed,
+        rate=first, guide_rate=f"({second})" if second.startswith("−") else second, length=length, scale=scale,
+        speed=speed,
     )  # fmt: skip

@@ -222,3 +222,9 @@ def test_the_rates_of_driven_links_of_an_open_chain_go_on_from_the_first() -> No
     }  # fmt: skip
     rate = "ω_2 = ω_1 · P12P01 / P12P02 = ω_1 · 60.00 / 180.00 = 1 rad/s"  # 3 - 2, for 60 : 180 = 1 : 3
     assert [rate in line for line in told(arm)].count(True) == 1
+
+
+def test_scales_and_speeds_that_are_very_small_are_told_as_powers_of_ten() -> None:
+    said = told({**four_bar(30e-6, 90e-6, 60e-6, 100e-6), "units": {"length": "m"}})
+    assert [] == [one for one in said if "e-" in one]
+    assert [] != [one for one in said if "·10⁻⁶ m/mm = " in one]
