@@ -16,7 +16,7 @@ from graphkin.drawing.place.piece import obstacles_of
 from graphkin.drawing.text import text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.pictures import bare_picture
-from tests.mechanisms import floating_cylinder
+from tests.mechanisms import floating_cylinder, redriven
 
 FOUR_BAR = graphkin.read("fourbar-150-500-300-400").to_dict() | {"positions": {"count": 4, "first": 0}}
 
@@ -104,6 +104,12 @@ def test_limits_that_there_are_not_are_said_not_to_be(language: str, said: str) 
     assert said in words_of(drawn)
 
 
+def test_the_angle_at_which_a_driver_stops_has_the_minus_sign_of_print() -> None:
+    mirrored = limits_alone("4") | {"driver": {"link": "4", "angle": -110, "omega": 2}, "sketch": {"B": [0, -30]}}
+    drawn = graphkin.draw(mirrored, figures=["positions"], language="en")
+    assert "(it stops near −86.18 deg)" in words_of(drawn)
+
+
 def test_limits_that_there_are_need_no_number_of_positions() -> None:
     drawn = graphkin.draw(limits_alone("2"), figures=["positions"], language="en")
     assert (b"limit-4-low" in svg_bytes(drawn.figures["positions"]), "No limit" in words_of(drawn)) == (True, False)
@@ -176,3 +182,11 @@ def test_why_no_limit_positions_are_drawn_is_said_whole_in_both_languages(
     figure = graphkin.draw(scene, figures=["positions"], language="both").figures["positions"]
     lines = {thing.string for thing in walk(figure.children) if isinstance(thing, Text)}
     assert set() == wanted - lines, lines
+
+
+def test_no_angle_theta_is_drawn_of_a_crank_that_is_driven_from_another_moving_link() -> None:
+    scene = redriven(5333)  # 1 is driven from 4: theta is one of its turning from there
+    drawn = graphkin.draw(scene, figures=["positions"], language="en")
+    answers = next(group for group in drawn.figures["positions"].children if group.id == "answers")
+    texts = [thing.string for thing in walk(answers.children) if isinstance(thing, Text)]
+    assert (["ψ= 57.728°"], True) == (texts, "θ= 12.78882°" in words_of(drawn))

@@ -319,7 +319,10 @@ def _mark(lines: Sequence[Primitive]) -> Mark:
 
 
 def _limits_of_crank(shown: Shown) -> tuple[float, complex, complex, complex] | None:
-    """The angle theta (rad), the pivot and the two limit positions of the crank from it."""
+    """The angle theta (rad), the pivot and the two limit positions of the crank from it; None for a crank that is
+    driven from another moving link, whose driver's value is no angle on the figure."""
+    if not shown.own.scene.drivers[0].turns_about(shown.own.scene.frame.name):
+        return None
     for pair, both in shown.limits.items():
         low, high = map(_crank_end, both)
         lag = shown.measured.get(("theta_lag", pair))
@@ -418,7 +421,8 @@ def _measured_lines(shown: Shown, page: FigurePage) -> list[RichText]:
         ))  # fmt: skip
         said += page.said("positions of", pair=Neutral(pair), values=Neutral(values))
     for symbol, why in shown.without.items():
-        said += page.said("no limits", output=page.letters.vector(symbol), reason=why)
+        lines = page.said("no limits", output=page.letters.vector(symbol), reason=why)
+        said += [line.with_words(lambda words: words.replace(" -", " −")) for line in lines]
     return said
 
 
