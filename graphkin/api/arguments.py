@@ -245,9 +245,10 @@ def _driver(scene: Mechanism, name: str) -> Driver:
 
 def in_convention(scene: Mechanism, convention: str | None) -> Mechanism:
     """The scene with the letters and marks of a convention; its own if None.  Raises CallError for an unknown one."""
+    if convention is None:
+        return scene
     known_words(convention=convention)
-    sheet = replace(scene.question.sheet, convention=convention) if convention else None  # type: ignore[arg-type]
-    return scene.asking(sheet=sheet) if sheet else scene
+    return scene.asking(sheet=replace(scene.question.sheet, convention=convention))  # type: ignore[arg-type]
 
 
 def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase]:
