@@ -55,7 +55,9 @@ def known_words(
     """
     if isinstance(formats, str):
         raise CallError.of("format", "is a text", "give a list", formats=formats)
-    formats = as_list("format", formats, Phrase("give a list of", names=listed(known_formats)))
+    if not isinstance(formats, Iterable):
+        raise unfit("format", formats, "give a list of", names=listed(known_formats))
+    formats = [*formats]
     wishes: list[tuple[str, object, Sequence[str]]] = [("format", word, known_formats) for word in formats]
     wishes += [
         (where, word, known)
