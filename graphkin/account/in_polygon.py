@@ -424,14 +424,15 @@ class InPolygon(Telling):
         """The gaps of the trials, measured from letter to letter, and the proportional division in numbers."""
         divided = self._divided
         rows = numbered([true_minus(on_paper(mm)) for mm in row] for row in divided.apart)
-        quotients, told = divisions(self.sheet, divided), []
-        for (symbol, _), one in zip(divided.found, quotients, strict=True):
-            told.append(Phrase("rate is", symbol=symbol, value=one.value, unit=self._unit(symbol)))
-        found = listed(told)
+        quotients = divisions(self.sheet, divided)
+        rates = listed([
+            Phrase("rate is", symbol=symbol, value=quotient.value, unit=self._unit(symbol))
+            for (symbol, _), quotient in zip(divided.found, quotients, strict=True)
+        ])  # fmt: skip
         if len(quotients) > 1:
-            parts = listed([one.part for one in quotients])
-            return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=found)
-        return Phrase("superposed one", between=self._left_open(), open=rows, sum=quotients[0].terms, rates=found)
+            parts = listed([quotient.part for quotient in quotients])
+            return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=rates)
+        return Phrase("superposed one", between=self._left_open(), open=rows, sum=quotients[0].terms, rates=rates)
 
     def _superposed_lines(self, language: str) -> Iterator[Phrase]:
         """The measured gaps, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional

@@ -346,7 +346,7 @@ class Centroded(OfScene, Result):
 
     @property
     def ok(self) -> bool:
-        """Whether the centre drawn at this position lies on the fixed centrode, to 1e-9 of the mechanism's size."""
+        """Whether the centre drawn at this position is the exact one, to 1e-9 of the mechanism's size."""
         point = self.centres.of(self.link, self.mechanism.frame.name).point
         if point is None or not np.isfinite(self.exact):
             return True

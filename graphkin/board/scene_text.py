@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any, get_args
 
-from graphkin.errors import CallError, Problem, SceneError
+from graphkin.errors import CallError, Problem, SceneError, some_of
 from graphkin.files import Json, OwnTables, Tables
 from graphkin.scene.scene import LARGEST_FILE, parsed
 from graphkin.scene.scene_tables import SCENE, Convention
 from graphkin.scene.tables import item_of
-from graphkin.words import LANGUAGES, Phrase, Wording, listed
+from graphkin.words import LANGUAGES, Phrase, Wording
 
 MOST_CHANGES = 500
 
@@ -40,7 +40,7 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
             _put(document, key, value)
         made = tomlkit.dumps(document).rstrip() + "\n"
     except (TOMLKitError, TypeError, ValueError, KeyError) as error:
-        raise CallError.of(listed([*changes]), "cannot be changed", error=str(error)[:180]) from None
+        raise CallError.of(some_of([*changes]), "cannot be changed", error=str(error)[:180]) from None
     if len(made) > LARGEST_FILE:
         raise CallError.of(Phrase("the file"), "would be larger than kb", largest=LARGEST_FILE // 1000)
     return made

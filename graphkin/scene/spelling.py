@@ -544,7 +544,7 @@ def _two_components(match: re.Match[str]) -> str:
 
 def _bare_number() -> str:
     # no digit that belongs to a unit (s2, s-1, 秒²) is a number
-    return rf"(?<![A-Za-z0-9./^米秒])(?<!\d,)(?<![A-Za-z]-){NUMBER}"
+    return rf"(?<![A-Za-z0-9./^])(?<!\d,)(?<![A-Za-z秒]-)(?!(?<=秒)-?2(?![\d.,])){NUMBER}"
 
 
 def _joined(text: str, symbol: Symbol) -> str:

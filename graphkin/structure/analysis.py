@@ -78,10 +78,11 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     if len(given) < len(unknowns):
         raise Unsolvable("mobility", _wrong_part(structure, unknowns, given), *_loose_ends(structure))
     among = structure.touching or any(d.relative_to != scene.frame.name for d in scene.drivers)
-    if among and (held := driven_twice(scene, structure.touching, structure.links, structure.slides)):
-        said = (Phrase("slides wheels and other drivers give", driver=d.key, link=d.link, other=d.relative_to)
-                for d in held)  # fmt: skip
-        raise Unsolvable("mobility", *(Problem(Phrase("status mobility"), one, "drive another pair") for one in said))
+    if among and (twice := driven_twice(scene, structure.touching, structure.links, structure.slides)):
+        given_already = [Phrase("slides wheels and other drivers give", driver=d.key, link=d.link, other=d.relative_to)
+                         for d in twice]  # fmt: skip
+        raise Unsolvable("mobility", *(Problem(Phrase("status mobility"), found, "drive another pair")
+                                       for found in given_already))  # fmt: skip
     elements = _in_order(structure, _nodes(structure), unknowns, given, {scene.frame.name})
     return _with_starts(_in_parts(replace(structure, elements=elements)))
 

@@ -519,9 +519,9 @@ def _like(other: Table, table: Table) -> Table:
     """A table in the columns of another: what a design with other drivers or units does not have is missing."""
     if table.heads == other.heads:
         return table
-    own = {column.head: column.values for column in table.columns}
+    values = {column.head: column.values for column in table.columns}
     nothing = np.full(len(table), np.nan)
-    return replace(other, columns=tuple(replace(c, values=own.get(c.head, nothing)) for c in other.columns))
+    return replace(other, columns=tuple(replace(c, values=values.get(c.head, nothing)) for c in other.columns))
 
 
 def _followed(sweep: Sweep, number: int) -> FollowedDesign | tuple[str, Wording]:

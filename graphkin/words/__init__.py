@@ -314,11 +314,11 @@ def joined(key: str, parts: Iterable[object]) -> Any:
     >>> str(joined("one and other", "ABC"))
     'A and B and C'
     """
-    said = [*parts]
-    while len(said) > 1:  # two by two: a thousand names are ten phrases deep
-        pairs = zip(said[::2], said[1::2], strict=False)
-        said = [*(Phrase(key, first=one, second=two) for one, two in pairs), *said[len(said) & ~1 :]]
-    return said[0]
+    left = [*parts]
+    while len(left) > 1:  # two by two: a thousand names are ten phrases deep
+        pairs = zip(left[::2], left[1::2], strict=False)
+        left = [*(Phrase(key, first=first, second=second) for first, second in pairs), *left[len(left) & ~1 :]]
+    return left[0]
 
 
 def in_turn(sentences: Sequence[Phrase]) -> Phrase:

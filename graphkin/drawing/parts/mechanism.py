@@ -273,8 +273,8 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
             written.discard(name)
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
             # a block that stands for a cam slides along the face of its follower
-            face = next((one.point for one in here.touching.cams if one.cam.flat and b.slide.key in here.replaced_pairs
-                         and one.cam.follower == b.slide.b), None)  # fmt: skip
+            face = next((touch.point for touch in here.touching.cams if touch.cam.flat
+                         and touch.cam.follower == b.slide.b and b.slide.key in here.replaced_pairs), None)  # fmt: skip
             start, edge = (b.at, edge) if face is None else (face, FLAT)
             letter = rich(here.letters.guide(name, here.ground), 3.0)
             text = Text(0j, letter, "start", strokes.BLACK, f"label-guide-{b.slide.b}-{name}", ("label",))

@@ -126,7 +126,7 @@ class MechanismOnPaper:
                 found.append(LinkShape(link.name, points, corners, bars, redundant=True))
             elif link.name in self.sheet.poses:
                 flat = frozenset(b.slide.key for b in self._faces)
-                tips = tuple(one.point for one in self.touching.cams if one.cam.follower == link.name)
+                tips = tuple(touch.point for touch in self.touching.cams if touch.cam.follower == link.name)
                 found.append(_shape(link.name, points, tips, (*slides, *self._faces), flat))
         return tuple(found)
 

@@ -184,7 +184,7 @@ class DimensionClearance:
         def charge(some: Sequence[int]) -> Floats:
             costs = np.full(len(drawn), np.inf)
             left = [k for k in some if self._inside(drawn[k].numbers + drawn[k].heads)
-                    and not any(one.overlaps(other) for one, other in combinations(drawn[k].numbers, 2))]
+                    and not any(number.overlaps(other) for number, other in combinations(drawn[k].numbers, 2))]
             left = _kept(left, self._covered([drawn[k] for k in left], ends_on_line or over_lines, over_lines))
             for k in left:
                 drawn[k] = drawn[k].whole(extensions)

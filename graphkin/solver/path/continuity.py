@@ -259,21 +259,21 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
 def _without_leg(path: Path, i: int, dyad: Dyad, along: Stretch) -> list[float]:
     """The places at which a driven slide draws the inner hinge of a dyad into an outer one: as it passes through this
     the two change sides."""
-    links, inner, found = path.structure.links, dyad.inner.point, list[float]()
+    links, inner, places = path.structure.links, dyad.inner.point, list[float]()
     bodies = (dyad.first, dyad.outer_first), (dyad.second, dyad.outer_second)
     for (body, outer), (other, _) in zip(bodies, bodies[::-1], strict=True):
         if dyad.kind == "RRR" and not all(joint.pair.turns for joint in body.joints):
             link = next(name for name in other.links if inner in links[name].points)
             ends = (link, links[link].points[inner]), (outer.b, links[outer.b].points[outer.point])
-            found += closed(partial(_square_between, path, i, *ends), along.low, along.high)[0].touches
-    return found
+            places += closed(partial(_square_between, path, i, *ends), along.low, along.high)[0].touches
+    return places
 
 
-def _square_between(path: Path, i: int, one: tuple[str, complex], two: tuple[str, complex], t: Array) -> Array:
+def _square_between(path: Path, i: int, first: tuple[str, complex], second: tuple[str, complex], t: Array) -> Array:
     """The square of the distance of two places, each of a link, over the size."""
     t = path.off_flips(t)
     poses = positions(path.structure, path.drive(t), path.mode(t), i + 1, rates=False).poses
-    (a, b), size = (poses[link].fixed(at).z for link, at in (one, two)), path.structure.scene.size
+    (a, b), size = (poses[link].fixed(at).z for link, at in (first, second)), path.structure.scene.size
     return np.broadcast_to(np.abs((a - b) / size) ** 2, t.shape)
 
 
