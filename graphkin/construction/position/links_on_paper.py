@@ -481,18 +481,17 @@ def met_near(paper: PlacedLinks, dyad: Dyad, guess: Poses, before: Poses | None 
 
     ``before`` are the poses from which all links are followed: the dyad keeps the assembly that it has in them, and
     there is none where the guess does not tell the two clearly; only a short step passes from one to the other, where
-    they meet.
+    they meet, or comes near to a dead point.
     """
     intersection = meet(paper, dyad)
     branch = intersection.nearest(guess)
     if branch is None:
         return None
     poses = intersection.poses[branch]
-    if before is not None and len(intersection.poses) > 1:
+    if before is not None and len(intersection.poses) > 1 and moved(poses, before) > MEETING:
         other = intersection.poses[1 - branch]
-        if apart(poses, other) > SAME_HOLE and apart(poses, guess) > TOLD * apart(other, guess):
-            return None
-        if moved(poses, before) > MEETING and branch != meet(replace(paper, poses=dict(before)), dyad).nearest(before):
+        kept = meet(replace(paper, poses=dict(before)), dyad).nearest(before)
+        if branch != kept or apart(poses, guess) > TOLD * apart(other, guess):
             return None
     return poses
 
