@@ -76,7 +76,7 @@ class OwnValues:
 AS_DRAWN = OwnValues()
 
 
-class Motion(NamedTuple):
+class DrawnMotion(NamedTuple):
     """The motion of the links seen from one of them, as far as it is drawn: end points (mm), measured rates, vectors.
 
     A point that no link has is special, of this link and another: its end is the difference of their motions there.
@@ -87,7 +87,7 @@ class Motion(NamedTuple):
     drawn: dict[Order, dict[Symbol, Vector]]
 
     @classmethod
-    def begun(cls, links: Mapping[str, PlacedLink], ground: str) -> Motion:
+    def begun(cls, links: Mapping[str, PlacedLink], ground: str) -> DrawnMotion:
         """The motion seen from a link, whose points are in the poles, before it is drawn."""
         fixed = dict.fromkeys(map(PointRef, links[ground].points), 0j)
         return cls({order: dict(fixed) for order in ORDERS}, {order: {ground: Rate(ground, 0.0)} for order in ORDERS},
@@ -142,7 +142,7 @@ class Polygons:
     trial: int = 0
     held: str = ""
     part_of: LargerGroup | None = None
-    seen: dict[str, Motion] = field(default_factory=dict)
+    seen: dict[str, DrawnMotion] = field(default_factory=dict)
 
     @classmethod
     def begun(
@@ -152,7 +152,8 @@ class Polygons:
         links = dict(structure.links)
         places = {point: paper.point(name, point) for name in paper.poses for point in links[name].points}
         size = max((abs(z - w) for z in places.values() for w in places.values()), default=1.0)
-        given, begun = {d.key: d.values[1:] for d in structure.drivers}, Motion.begun(links, structure.scene.frame.name)
+        given = {d.key: d.values[1:] for d in structure.drivers}
+        begun = DrawnMotion.begun(links, structure.scene.frame.name)
         return cls(board, structure, paper, scales, links, places, 1e-11 * size, *begun, own_values, given)
 
     @cached_property
@@ -183,7 +184,7 @@ class Polygons:
 
     def seen_from(self, held: str, group: LargerGroup | None = None) -> Polygons:
         """These polygons with a link of a group held still, as if it were the frame, on a board of their own."""
-        motion = self.seen.setdefault(held, Motion.begun(self.links, held))
+        motion = self.seen.setdefault(held, DrawnMotion.begun(self.links, held))
         board = Board(self.board.instrument, equations=self.board.equations, readings=self.board.readings)
         own_values = OwnValues(line=self.own_values.line)
         return replace(self, **motion._asdict(), board=board, own_values=own_values, believed=set(), trial=0, held=held,
@@ -410,8 +411,8 @@ def _copied(kept: Any) -> Any:
     """A copy of a collection with the collections in it; another value as it is."""
     if isinstance(kept, dict):
         return {key: _copied(value) for key, value in kept.items()}
-    if isinstance(kept, Motion):
-        return Motion(*map(_copied, kept))
+    if isinstance(kept, DrawnMotion):
+        return DrawnMotion(*map(_copied, kept))
     return type(kept)(kept) if isinstance(kept, set | list) else kept
 
 
