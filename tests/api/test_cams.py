@@ -397,6 +397,7 @@ def test_degrees_of_a_law_are_those_of_the_file():
     data = graphkin.cam(scene).data["cams"]["1"]
     assert [0, 110, 120, 170, 220] == [jump["degree"] for jump in data["jumps"]]
     assert {0, 110, 120, 170, 220} <= {division["degree"] for division in data["divisions"]}
+    assert 120 == data["acceleration"]["degree"]
 
 
 def test_the_angle_of_a_piece_that_is_too_narrow_for_it_stands_below_the_marks_of_its_ends():

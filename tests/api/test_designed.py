@@ -164,6 +164,7 @@ def test_fixed_pivots_given_the_moving_ones_are_carried_by_the_bar():
         ({**PLACES, "positions": [{"B": [x, 0], "angle": x} for x in (0, 10, 20)]}, "in one line"),
         ({**PLACES, "A": [11, -35], "D": [11, -35]}, "A: lies where D lies; two pivots apart"),
         ({**PLACES, "A": POLE, "D": [57, 28]}, "two of the places of A are one, .*; other pivots or other positions"),
+        ({**PLACES, "A": [11, -35], "D": POLE}, "two of the places of D are one, .*; other pivots or other positions"),
         (ABOUT_ONE_CENTRE, "A and D fall together"),
         ({**PAIRS, "pairs": [[30, 45], [30, 45], [120, 90]]}, "three pairs"),
     ],

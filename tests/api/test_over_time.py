@@ -273,6 +273,12 @@ def test_a_rate_grows_without_bound_where_a_law_leads_to_an_end_of_the_motion():
     nothing = {"value": None, "why": "it grows without bound there", "time": pytest.approx(end[1], rel=1e-9)}
     assert [nothing, nothing] == [outputs[rate]["least"] for rate in ("v_3/0", "a_3/0")]
     assert "v_3/0: grows without bound at 0.14928 s, greatest" in swept.text
+    pieces = [{"to": 0.5, "rise": 90, "by": "uniform"}, {"to": 1, "fall": 90, "by": "uniform"}]
+    scene["driver"]["law"] = {"from": 10, "pieces": pieces}
+    there_and_back = graphkin.sweep(scene, positions=4).data["outputs"]
+    back = nothing | {"time": pytest.approx(1 - end[1], rel=1e-9)}
+    assert [nothing, back] == [*there_and_back["v_3/0"].values()]
+    assert pytest.approx([-math.pi, math.pi]) == [rate["value"] for rate in there_and_back["omega_1"].values()]
 
 
 def test_the_greatest_angle_of_a_spline_counts_its_whole_turns_between_moments_that_were_looked_at():

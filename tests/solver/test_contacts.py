@@ -327,3 +327,36 @@ def test_a_wheel_on_a_rail_of_a_moving_link_stands_where_it_is_sketched(seen):
     # it turns by -2 rad/s on the rail, and with this by 1 rad/s
     velocity = 60 * rail + 1j * centre
     assert [velocity.real, velocity.imag] == pytest.approx(position["points"]["C@1"]["velocity"])
+
+
+RAIL = {"rail": {"through": [10, 0], "angle": 0}}
+
+
+@pytest.mark.parametrize(("base", "turn", "known", "scene"), [
+    (complex(5, 7) - cmath.rect(17, math.radians(20) + math.atan2(-8, 15)), 20, "C", {  # it turns about another point
+        "frame": {"points": {"O": [5, 7]}},
+        "links": {"2": {"points": ["Q"], "at": {"O": [15, -8]}, "guides": RAIL}},
+        "driver": [{"link": "2", "angle": 20, "omega": 1}],
+    }),
+    (cmath.rect(50, math.radians(30)), 30, "QC", {  # it slides on the frame
+        "frame": {"guides": {"g": {"through": [0, 0], "angle": 30}}},
+        "links": {"2": {"points": ["Q"], "on": "0.g", "guides": RAIL}},
+        "driver": [{"slide": "2", "travel": 50, "velocity": 1}],
+    }),
+    (cmath.rect(60, math.radians(30)), 70, "BQC", {  # it is turned from another moving link; its bar is sketched
+        "frame": {"points": {"O": [0, 0]}},
+        "links": {"5": {"points": ["O", "B"], "length": 60}, "2": {"points": ["B", "Q"], "length": 50, "guides": RAIL}},
+        "driver": [{"link": "5", "angle": 30, "omega": 1}, {"link": "2", "relative_to": "5", "angle": 40, "omega": 1}],
+    }),
+])  # fmt: skip
+def test_a_wheel_stands_where_it_is_sketched_however_the_direction_of_its_rail_is_known(base, turn, known, scene):
+    along = cmath.rect(1, math.radians(turn))
+    sketched = {"B": base, "Q": base + 50 * along if turn == 70 else base, "C": base + complex(48, 33) * along}
+    wheel = {"1": {"points": ["C", "P"], "length": 20, "discs": {"w": {"centre": "C", "r": 30}}}}
+    scene = scene | {
+        "links": scene["links"] | wheel,
+        "contacts": {"K": {"between": ["1.w", "2.rail"], "rolling": True}},
+        "driver": [*scene["driver"], {"link": "1", "angle": 110, "omega": -1}],
+        "sketch": {p: [z.real, z.imag] for p, z in sketched.items() if p in known},
+    }
+    assert base + complex(48, 30) * along == pytest.approx(solve(scene)["C"][0])

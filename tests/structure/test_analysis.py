@@ -253,6 +253,19 @@ def test_drivers_that_turn_no_wheel_seen_from_the_frame_are_refused_by_name() ->
         analyse(scene)
 
 
+def test_drivers_of_wheels_that_turn_alike_whatever_their_carrier_does_are_refused_by_name() -> None:
+    gears = {name: {"between": [name, "3"], "teeth": [40, 20], "carrier": "4"} for name in "12"}
+    scene = mechanism_of({
+        "frame": {"points": {"A": [0, 0]}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["A"]}, "3": {"points": ["B", "C"], "length": 9},
+                  "4": {"points": ["A", "B"], "length": 60}},
+        "gears": gears,
+        "driver": [{"link": name, "angle": 0, "omega": 1} for name in "12"],
+    })  # fmt: skip
+    with pytest.raises(Unsolvable, match="driver 2: slides, wheels and other drivers already give how link 2 moves"):
+        analyse(scene)
+
+
 def test_what_is_held_too_much_is_told_without_a_word_of_another_language() -> None:
     with pytest.raises(Unsolvable) as refusal:
         structure(TWO_GEARS)

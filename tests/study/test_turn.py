@@ -885,6 +885,14 @@ def test_a_distance_that_comes_near_to_nothing_is_what_it_is() -> None:
     assert (0.00002, ()) == (pytest.approx(distance.least.value, rel=1e-9), distance.zeros)
 
 
+def test_a_stretch_of_zero_goes_on_over_the_zero_of_the_driver() -> None:
+    law = [{"to": 40}, {"to": 100, "rise": 20, "by": "345"}, {"to": 160}, {"to": 340, "fall": 20, "by": "345"}]
+    scene = graphkin.read("cam-flat-face").to_dict()
+    scene["cams"]["1"]["law"] = [*law, {"to": 360}]
+    (speed,) = trace(driver_range(mechanism_of(scene)), [Symbol.parse("v_2/0")])
+    assert [(100, 160), (340, 40)] == [pytest.approx(np.degrees(ends)) for ends in speed.zero_stretches]
+
+
 def test_of_extremes_that_differ_little_the_furthest_is_the_greatest() -> None:
     first, second = (Extreme("max", place, place, value) for place, value in ((1.0, 2.0), (3.0, 2.001)))
     assert second == Traced(Symbol.parse("v_C"), (first, second), ()).greatest
