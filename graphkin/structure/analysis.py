@@ -32,6 +32,7 @@ from graphkin.structure.model import (
     Mobility,
     RollingRelation,
     Structure,
+    TurnedBy,
     driver_pair,
     reached,
 )
@@ -73,9 +74,12 @@ def analyse(scene: Mechanism | Structure) -> Structure:
         loose = _loose_ends(structure) if mobility > len(scene.drivers) else ()
         refusal = Unsolvable if scene.drivers or mobility <= 0 else NoDriver
         raise refusal("mobility", _wrong_count(structure), *loose)
-    unknowns = [sorted(row) for row in _equations(structure)]
-    given = match(unknowns)
+    turned = _turned_by(structure)
+    unknowns = [sorted(row) for row in _equations(structure, turned)]
+    given = match([[u for u in row if u[1] != AHEAD] for row in unknowns])
     if len(given) < len(unknowns):
+        unknowns = [[(node, "t" if axis == AHEAD else axis) for node, axis in row] for row in unknowns]
+        given = match(unknowns)
         raise Unsolvable("mobility", _wrong_part(structure, unknowns, given), *_loose_ends(structure))
     among = structure.touching or any(d.relative_to != scene.frame.name for d in scene.drivers)
     if among and (twice := driven_twice(scene, structure.touching, structure.links, structure.slides)):
@@ -83,7 +87,7 @@ def analyse(scene: Mechanism | Structure) -> Structure:
                          for d in twice]  # fmt: skip
         raise Unsolvable("mobility", *(Problem(Phrase("status mobility"), found, "drive another pair")
                                        for found in given_already))  # fmt: skip
-    elements = _in_order(structure, _nodes(structure), unknowns, given, {scene.frame.name})
+    elements = _in_order(structure, _nodes(structure), unknowns, given, {scene.frame.name}, turned)
     return _with_starts(_in_parts(replace(structure, elements=elements)))
 
 
@@ -139,8 +143,30 @@ def _ranks(structure: Structure) -> Callable[[str], int]:
     return {name: i for i, name in enumerate(structure.links)}.__getitem__
 
 
-def _equations(structure: Structure) -> list[set[Unknown]]:
-    """For each scalar constraint the coordinates in it."""
+AHEAD = "d"
+"""In place of the angle of a link from which another is turned: a direction that drivers give before it is placed."""
+
+
+def _turned_by(structure: Structure) -> dict[str, TurnedBy]:
+    """For each link whose direction drivers and sliding pairs alone give, these, from the frame on."""
+    turned: dict[str, TurnedBy] = {structure.scene.frame.name: ()}
+    steps: list[Driver | Pair] = [*(driver for driver in structure.drivers if driver.turns), *structure.slides]
+    for _ in steps:
+        for step in steps:
+            link, base = step.links
+            for name, before in ((link, base), (base, link)):
+                if before in turned and name not in turned:
+                    turned[name] = (*turned[before], (step, name == link))
+    return turned
+
+
+def _later(turned: Mapping[str, TurnedBy], driver: Driver) -> str | None:
+    """Of the two links of a driver that which it turns, where drivers give the direction of the other before."""
+    return next((n for n in driver.links if n in turned and (driver, n == driver.link) in turned[n][-1:]), None)
+
+
+def _equations(structure: Structure, turned: Mapping[str, TurnedBy] | None = None) -> list[set[Unknown]]:
+    """For each scalar constraint the coordinates in it; of ``turned`` links drivers give the directions."""
     rows: list[set[Unknown]] = []
     frame = structure.scene.frame.name
 
@@ -164,7 +190,10 @@ def _equations(structure: Structure) -> list[set[Unknown]]:
             *(side for s in slides for side in ((s.a, "xy"), (s.b, "xyt"))))  # fmt: skip
     for driver in structure.drivers:
         driven, base = ("t", "t") if driver.turns else ("xy", "xyt")
-        add((driver.link, driven), (driver.relative_to, base))
+        link, other = driver.links
+        if later := _later(turned or {}, driver):
+            link, other, base = later, other if later == link else link, AHEAD
+        add((link, driven), (other, base))
     return rows
 
 
@@ -251,19 +280,39 @@ def _in_order(
     unknowns: Sequence[Sequence[Unknown]],
     given: Mapping[int, Unknown],
     known: set[str],
+    turned: Mapping[str, TurnedBy],
 ) -> tuple[Element, ...]:
     """The elements that place some nodes, each after those it needs."""
     rank = _ranks(structure)
-    needs: dict[Node, dict[Node, None]] = {node: {} for node in nodes}
-    for i, (node, _) in given.items():
-        others = {n for n, _ in unknowns[i]} - {node}
-        needs[node].update(dict.fromkeys(sorted(others, key=lambda n: (n[0], rank(n[1]) if n[0] == "link" else n[1]))))
+
+    def parts(nodes: Sequence[Node], ahead: bool = False) -> Iterator[tuple[tuple[Node, ...], list[str]]]:
+        """What is solved together, with its links; ``ahead`` of the links whose directions drivers give."""
+        needs: dict[Node, dict[Node, None]] = {node: {} for node in nodes}
+        for i, (node, _) in given.items():
+            others = {n for n, axis in unknowns[i] if n in needs and not (ahead and axis == AHEAD)} - {node}
+            if node in needs:
+                needs[node].update(
+                    dict.fromkeys(sorted(others, key=lambda n: (n[0], rank(n[1]) if n[0] == "link" else n[1]))))
+        for component in components({node: list(others) for node, others in needs.items()}):
+            members = sorted((name for kind, name in component if kind == "link"), key=rank)
+            if members:
+                yield component, members
+
     elements: list[Element] = []
-    for component in components({node: list(others) for node, others in needs.items()}):
-        members = sorted((name for kind, name in component if kind == "link"), key=rank)
-        if members:
-            elements.append(_element_of(structure, members, known))
-            known.update(members)
+    for component, members in parts(nodes):
+        whole = _element_of(structure, members, known, turned)
+        some: list[Element] = [whole]
+        if isinstance(whole, LargerGroup) and any(_later(turned, d) for d in whole.drivers):
+            here, sooner = {*known}, list[Element]()
+            for _, few in parts(component, ahead=True):
+                sooner.append(_element_of(structure, few, here, turned))
+                here.update(few)
+                if not isinstance(sooner[-1], Driven) and any(not here.issuperset(d.links) for d in sooner[-1].drivers):
+                    break
+            else:
+                some = sooner
+        elements += some
+        known.update(members)
     return tuple(elements)
 
 
@@ -275,10 +324,14 @@ _KINDS: Mapping[str, tuple[DyadKind, Literal["as found", "the other", "as writte
 _SIDES = (True, True), (True, False), (False, True)  # of the inner and the outer pairs of two bodies
 
 
-def _element_of(structure: Structure, members: list[str], known: set[str]) -> Element:
+def _element_of(
+    structure: Structure, members: list[str], known: set[str], turned: Mapping[str, TurnedBy]
+) -> Element:
     """The element of links that are solved together, the ``known`` ones before it."""
     scene, inside = structure.scene, set(members)
-    drivers = [d for d in structure.drivers if inside & {*d.links} and {*d.links} <= inside | known]
+    later = {d: _later(turned, d) for d in structure.drivers}
+    drivers = [d for d in structure.drivers
+               if inside & {*d.links} and (later[d] in inside or (not later[d] and {*d.links} <= inside | known))]
     pairs = _pairs(structure, members, known)
     for cam in structure.lifting:
         if members == [cam.follower] and cam.link in known and len(pairs) == 1 and not drivers:
@@ -292,7 +345,8 @@ def _element_of(structure: Structure, members: list[str], known: set[str]) -> El
     if len(members) == 1 and len(pairs) == 1 and len(drivers) + len(rolling) == 1:
         driver = drivers[0] if drivers else rolled_by(scene, rolling[0], members[0], pairs[0])
         if driver is not None:
-            return Driven(members[0], pairs[0], driver)
+            base = next((n for n in drivers[0].links if later[drivers[0]] and n not in members), "") if drivers else ""
+            return Driven(members[0], pairs[0], driver, () if base in known else turned.get(base, ()))
     bodies, loose = _bodies(structure, members, drivers)
     dyad = _dyad(structure, bodies, pairs, real) if not loose and not rolling else None
     if dyad is not None:
@@ -526,7 +580,7 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
     given = match(rows)
     if len(given) < len(rows) or len(rows) != sum(3 if kind == "link" else 2 for kind, _ in nodes):
         return None
-    return _in_order(structure, nodes, rows, given, placed)
+    return _in_order(structure, nodes, rows, given, placed, {})
 
 
 # -- why there is no order of solution ---------------------------------------------------------------------------------

@@ -109,6 +109,10 @@ class RollingRelation:
 Mover: TypeAlias = Driver | LawCam | RollingRelation
 """What moves a link from known links: a driver, a cam by its law, or rolling."""
 
+TurnedBy: TypeAlias = tuple[tuple[Driver | Pair, bool], ...]
+"""What gives a link's direction from the frame on: drivers and sliding pairs, each with whether it turns its first link
+from its second."""
+
 
 @dataclass(frozen=True)
 class Driven:
@@ -119,11 +123,14 @@ class Driven:
     this link alone; ``drivers`` has the driver unless it is ``lifted`` by a cam or ``rolled``; ``outside`` are the
     known links of its pair, ``named`` its words; it is ``explicit``, given by formulas of the drivers alone, unless it
     follows a cam, whose law has pieces, or rolls.
+
+    Where the link from which it is turned is placed later, ``ahead`` gives that link's direction.
     """
 
     link: str
     pair: Pair
     driver: Mover
+    ahead: TurnedBy = ()
     order: ClassVar[int] = 1
     joints: ClassVar[tuple[DrivenJoint, ...]] = ()
     starts: ClassVar[tuple[Driver, ...]] = ()
@@ -147,7 +154,8 @@ class Driven:
             drivers=(driver,) if isinstance(driver, Driver) else (),
             rolled=driver if isinstance(driver, RollingRelation) else None,
             lifted=driver if isinstance(driver, LawCam) else None, explicit=driver.given,
-            outside=frozenset((*self.pair.links, *driver.links, *driver.through)) - {self.link},
+            outside=frozenset((*self.pair.links, *driver.links, *driver.through)).union(
+                *(step.links for step, _ in self.ahead)) - {self.link},
         )  # fmt: skip
 
 

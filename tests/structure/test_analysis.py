@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import pickle
+from cmath import rect
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
+import graphkin
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import solve
@@ -100,6 +103,31 @@ def test_a_driven_coupler_is_a_group_of_class_three() -> None:
     ).groups[0]
     assert isinstance(group, LargerGroup)
     assert (group.order, group.kind) == (3, "group of 1, 2, 3")
+
+
+@pytest.mark.parametrize("base", ["2", "3"])  # the second link itself, or a block that slides on it
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0)])
+def test_a_link_turned_from_a_later_one_that_a_driver_turns_is_a_driven_link(base: str, order: tuple[int, ...]) -> None:
+    drivers = [{"link": "1", "relative_to": base, "angle": 40, "omega": 3, "alpha": -1},
+               {"link": "2", "angle": 70, "omega": 2, "alpha": 0.5},
+               {"slide": "3", "travel": 20, "velocity": 15, "acceleration": -7}]  # fmt: skip
+    scene: dict[str, Any] = {
+        "frame": {"points": {"A": [0, 0]}},
+        "links": {
+            "1": {"points": ["A", "P"], "length": 100},
+            "2": {"points": ["P", "Q"], "length": 60, "guides": {"g": {"through": [10, 5], "angle": 30}}},
+            "3": {"points": ["S"], "on": "2.g"},
+        },
+        "driver": [drivers[i] for i in order],
+    }  # fmt: skip
+    assert {Driven} == {type(element) for element in analyse(mechanism_of(scene)).elements}
+    motion, turn = solve(mechanism_of(scene)), 30 if base == "3" else 0
+    p, q = 0.1 * rect(1, math.radians(110 + turn)), 0.06 * rect(1, math.radians(70))
+    assert p + q == pytest.approx(complex(motion.position("Q")[0]), rel=1e-13)
+    assert 1j * (5 * p + 2 * q) == pytest.approx(complex(motion.velocity("Q")[0]), rel=1e-13)
+    second = (-0.5j - 25) * p + (0.5j - 4) * q
+    assert second == pytest.approx(complex(motion.acceleration("Q")[0]), rel=1e-13)
+    assert [True, True] == [graphkin.check(scene, at=at).ok for at in (None, {"1": 63, "2": -20})]
 
 
 def test_a_plate_on_three_bars_is_a_group_of_class_three() -> None:

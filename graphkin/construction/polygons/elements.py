@@ -103,10 +103,12 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     rate = plot.given[driver.key][ORDERS.index(order)]
     if isinstance(driver, Driver) and driver.turns:
         other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
-        base = plot.rates[order][other].value
+        base = added_up(plot.given[step.key][ORDERS.index(order)] * (1 if forth else -1)
+                        for step, forth in element.ahead if isinstance(step, Driver)
+                        ) if element.ahead else plot.rates[order][other].value
         plot.rates[order][name] = Rate(name, base + sign * rate, mm=mm, plan=driver.rolls)
         if base or rate:
-            add_rates(plot, order, name, (other, driver.link), rate)
+            add_rates(plot, order, name, (other, driver.link), base, rate)
     elif pair.turns:
         plot.rates[order][name] = Rate(name, rate, mm=mm, plan=driver.rolls)
     if pair.turns and name in plot.rates[order]:

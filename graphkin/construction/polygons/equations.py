@@ -98,7 +98,7 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
     plot.rates[order][name] = changed(rate, link=name, value=rate.value + add, same_as=rate.same_as or known)
 
 
-def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], add: float) -> None:
+def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], known: float, add: float) -> None:
     """Find the rate of a link from that of a known link and the rate between the two, omega_2 = omega_1 + omega_21;
     relative to a link that stands still it needs no finding.
 
@@ -106,11 +106,10 @@ def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], a
     ----------
     order : "velocity" or "acceleration"
     link, links : the link whose rate is found; the known link, and that of the two which turns relative to the other
-    add : the rate between them (rad/s, rad/s2)
+    known, add : the rate of the known link, and that between the two (rad/s, rad/s2)
     """
     if links[0] == plot.ground:
         return
-    known = plot.rates[order][links[0]].value
     plot.do(RateStep("read", "sum of rates", order, kind=RATE[order], link=link, links=links, value=known, other=add))
 
 
@@ -129,7 +128,7 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
                         seen = plot.seen[a].rates[order]
                         is_told = not seen[b].same_as or seen[seen[b].same_as].value != seen[b].value
                     if is_told:
-                        add_rates(plot, order, new, (at, b), add)
+                        add_rates(plot, order, new, (at, b), plot.rates[order][at].value, add)
                     queue.append(new)
 
 

@@ -321,7 +321,11 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Steps]:
         if isinstance(driver, Driver):
             forward = driver.link == name
             to = driver.relative_to if forward else driver.link
-            base = paper.poses[to].axis
+            base = 1 + 0j if element.ahead else paper.poses[to].axis
+            for step, forth in element.ahead:
+                turn = step.guide.direction * step.turn if isinstance(step, Pair) else (
+                    direction(math.degrees(paper.values[step.key])))
+                base *= turn if forth else turn.conjugate()
         axis = unit(base * paper.instrument.angle(direction(math.degrees(value if forward else -value))))
         hinge = paper.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (paper.links[name].points[pair.point] * paper.mm), axis)

@@ -142,6 +142,8 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
     scene = structure.scene
     rails = (tuple(structure.slide(n) for kind, n in r.terms if kind == "travel") for r in group.rolling)
     rolling = tuple(RemovedConstraint("", slides=s, rolling=r) for r, s in zip(group.rolling, rails, strict=True))
+    # what turned links before from later ones holds no more
+    before = {d.key for e in structure.driven if e.ahead and e.link in known for d in e.drivers}
     as_given = {d.key: d for d in scene.drivers}
     driven = {n for d in scene.drivers if d.turns for n in d.links}
     # what the driver moves is rather left in its place
@@ -153,7 +155,7 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
             continue
         if any(gone.intersection(r.links) for r in removed):
             continue  # where one is put back, the other must lie already
-        drivers = _instead(scene.drivers, removed)
+        drivers = _instead([d for d in scene.drivers if d.key not in before], removed)
         if len({d.key for d in drivers.values()}) < len(drivers):
             continue
         opened = without(unrolled(scene, [r.rolling.name for r in removed if r.rolling]), gone)

@@ -303,7 +303,12 @@ def driven(program: Program, element: Driven, poses: Mapping[str, PoseFormula]) 
     if driver.turns:
         given = program.turn(driver)
         forward = driver.link == link
-        from_ = poses[driver.relative_to if forward else driver.link]
+        to = driver.relative_to if forward else driver.link
+        from_ = poses[program.structure.scene.frame.name if element.ahead else to]
+        for step, forth in element.ahead:
+            turn = program.turn(step) if isinstance(step, Driver) else (
+                program.rest(step, step.b).of(program.rest(step, step.a).inverse()))
+            from_ = from_.of(turn if forth else turn.inverse())
         seen = from_.of(given if forward else given.inverse())
         return at.pinned(mine, seen.u, seen.omega, seen.alpha)
     travel, rate, second = program.travel(driver)
