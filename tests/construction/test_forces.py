@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import os
 import random
@@ -9,6 +10,7 @@ import sys
 import tomllib
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -873,3 +875,19 @@ def test_what_cannot_be_balanced_is_refused_alike_whatever_hand_draws(balance):
     for hand in ("exact", "pencil"):
         with pytest.raises(Unsolvable, match=r"^driver 1: dead point: the balance does no work in this position"):
             graphkin.check(scene, instrument=hand)
+
+
+def test_forces_of_a_link_driven_from_a_later_one_are_drawn_with_those_of_all_links() -> None:
+    scene: dict[str, Any] = {
+        "frame": {"points": {"A": [0, 0]}},
+        "links": {"1": {"points": ["A", "P"], "length": 100}, "2": {"points": ["P", "Q"], "length": 60}},
+        "driver": [{"link": "1", "relative_to": "2", "angle": 40, "omega": 3, "alpha": -1},
+                   {"link": "2", "angle": 70, "omega": 2, "alpha": 0.5}],
+        "masses": {"2": {"mass": 3, "at": "Q", "inertia": 0}},
+    }  # fmt: skip
+    p, q = 0.1 * cmath.rect(1, math.radians(110)), 0.06 * cmath.rect(1, math.radians(70))
+    force = 3 * ((-0.5j - 25) * p + (0.5j - 4) * q)
+    moments = {"M_1": cross(p, force), "M_2": cross(p + q, force)}
+    rows = {str(row.symbol): row for row in graphkin.check(scene).report.rows}
+    assert moments == pytest.approx({name: rows[name].measured for name in moments}, rel=1e-9)
+    assert [] == [name for name, row in rows.items() if not row.ok]

@@ -222,10 +222,14 @@ def _balanced_groups(structure: Structure) -> tuple[Element, ...]:
     """The groups of the mechanism, in the order of solution, were it driven where it is balanced: a force or a moment
     there leaves so many equations to each group as it has unknown forces.
 
-    Where no driver stands for the balance, all moving links are one group.
+    Where no driver stands for the balance, or links are driven from later ones, all moving links are one group.
     """
     scene = structure.scene
     said = scene.loading.balance
+    moving = [name for name in structure.links if name != scene.frame.name]
+    whole = LargerGroup(tuple(moving), (), scene.drivers, tuple(n for n in moving if n in scene.by_name), 3)
+    if any(element.ahead for element in structure.driven):
+        return (whole,)
     if said is None or len(scene.drivers) != 1:
         return structure.elements
     given = scene.drivers[0]
@@ -239,9 +243,7 @@ def _balanced_groups(structure: Structure) -> tuple[Element, ...]:
     try:
         return analyse(replace(scene, drivers=(driver,))).elements
     except Unsolvable:
-        members = tuple(name for name in structure.links if name != frame)
-        real = tuple(link.name for link in scene.links if link.name in members)
-        return (LargerGroup(members, (), (driver,), real, 3),)
+        return (replace(whole, drivers=(driver,)),)
 
 
 # -- what acts from outside --------------------------------------------------------------------------------------------
