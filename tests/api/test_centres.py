@@ -128,7 +128,10 @@ def test_velocities_by_centres_hold_near_a_dead_centre(angle: float) -> None:
 )
 def test_centres_may_be_off_by_what_a_rate_loses_over_a_short_arm(mechanism: dict[str, Any], at: float) -> None:
     # two guides turn parallel: short links slide far off, and the velocities of their ends differ by 1e-10
-    assert graphkin.centres(mechanism, at=at).ok
+    made = graphkin.centres(mechanism, at=at)
+    assert made.ok
+    # rates that are read lose nothing
+    assert 1e-12 > min(centre.error for centre in made.centres.found if centre.way)
 
 
 def test_a_tiny_crank_before_a_long_rod_has_its_rate_by_centres_too() -> None:

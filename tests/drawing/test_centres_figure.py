@@ -165,7 +165,7 @@ def test_the_centre_that_is_drawn_lies_on_the_centrode_of_a_mechanism_that_a_sli
     found = centrodes(scene, link="2")
     turn = math.acos((50**2 + 150**2 - 120**2) / (2 * 50 * 150))  # the crank's; its line meets the upright through C
     assert complex(0.15, 0.15 * math.tan(turn)) == pytest.approx(found.exact)
-    assert found.ok
+    assert (True, False) == (found.ok, replace(found, exact=found.exact + 1e-6).ok)
 
 
 @pytest.mark.parametrize("link", ["1", "3", "9"])
