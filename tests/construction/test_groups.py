@@ -564,3 +564,26 @@ def test_trial_polygons_of_a_mechanism_that_nothing_but_a_slide_drives_are_divid
     result = graphkin.check({**scene, "frame": frame, "links": links, "driver": driver})
     assert {"velocity", "acceleration"} == {step.diagram for step in result.sheet.steps if isinstance(step, RateTrial)}
     assert result.ok
+
+
+VAGUE: dict[str, Any] = {  # two assemblies lie a few per cent of the size off the sketch
+    "frame": {"points": {"P": [60, 0], "Q": [240, -10], "R": [330, 220]}},
+    "links": {
+        "2": {"points": ["A", "B"], "length": 100, "at": {"C": [60, 70], "H": [-10, -40], "K": [110, -50]}},
+        "3": {"points": ["D", "E"], "length": 110, "at": {"F": [60, 50], "L": [130, 60]}},
+        "4": {"points": ["A", "D"], "length": 112}, "5": {"points": ["B", "E"], "length": 114},
+        "7": {"points": ["C", "G"], "length": 76}, "8": {"points": ["G", "F"], "length": 54},
+        "9": {"points": ["P", "H"], "length": 67}, "10": {"points": ["Q", "K"], "length": 67},
+        "11": {"points": ["R", "L"], "length": 94},
+    },
+    "driver": {"link": "8", "relative_to": "7", "angle": -91, "omega": 2, "alpha": -3},
+    "sketch": {"A": [100, 100], "B": [200, 90], "C": [160, 170], "D": [120, 210], "E": [230, 200], "F": [180, 260],
+               "G": [130, 240], "H": [90, 60], "K": [210, 50], "L": [250, 270]},
+}  # fmt: skip
+
+
+def test_of_assemblies_about_a_vague_sketch_the_nearest_is_drawn() -> None:
+    sheet, motion = draft(mechanism_of(VAGUE)), solver.solve(mechanism_of(VAGUE))
+    drawn = {str(ref): z * sheet.scales.length for ref, z in sheet.points.items()}
+    assert {p: complex(motion.position(p)[0]) for p in VAGUE["sketch"]} == pytest.approx(
+        {p: drawn[p] for p in VAGUE["sketch"]}, abs=1e-9)

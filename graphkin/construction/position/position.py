@@ -61,7 +61,7 @@ from graphkin.words import Phrase, links_named
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 TWINS = 1e-6  # of the size: as near as this places are the same
-ROUGHLY = 0.1  # of the size: so far off a sketch may be
+ROUGHLY = 0.01  # of the size: so near to a sketch no nearer assembly is looked for
 STEP, LONG_STEP = math.radians(2.0), math.radians(8.0)  # of the driver at most, with larger groups and without
 SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the size of the mechanism
 
