@@ -587,3 +587,14 @@ def test_of_assemblies_about_a_vague_sketch_the_nearest_is_drawn() -> None:
     drawn = {str(ref): z * sheet.scales.length for ref, z in sheet.points.items()}
     assert {p: complex(motion.position(p)[0]) for p in VAGUE["sketch"]} == pytest.approx(
         {p: drawn[p] for p in VAGUE["sketch"]}, abs=1e-9)
+
+
+def test_where_the_own_position_is_a_dead_point_it_is_named_whatever_position_is_drawn() -> None:
+    parallel = {
+        "frame": {"points": {"A": [0, 0], "D": [100, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 60}, "2": {"points": ["B", "C"], "length": 100},
+                  "3": {"points": ["C", "D"], "length": 60}},
+        "driver": {"link": "1", "angle": 180, "omega": 1},
+    }  # fmt: skip
+    with pytest.raises(Unsolvable, match="this is the scene's own position, from which others are drawn"):
+        graphkin.check(parallel, at=100)

@@ -237,7 +237,14 @@ def poses_at(placed: PlacedElements, values: Mapping[str, float]) -> Poses:
     """The poses of some elements' links at driver values (rad, m), on paper of the mechanism's size, followed from the
     scene's own position; errors as for `assembly_at`."""
     start = {d.key: d.values[0] for d in placed.structure.scene.drivers}
-    poses = own_position(placed.at_start).poses
+    try:
+        poses = own_position(placed.at_start).poses
+    except Unsolvable as at_start:
+        if at_start.status != "dead point" or values == start:
+            raise
+        (problem, *_) = at_start.problems
+        problem = replace(problem, wanted=Phrase("move the own position off"))
+        raise Unsolvable("dead point", problem) from None
     return poses if values == start else moved_to(placed, start, values, poses)
 
 
