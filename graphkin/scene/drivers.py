@@ -48,7 +48,7 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
             name, base = _pair_of(where, driver, reading, lost), ""
         law = _law(where, driver, reading)
         reading.wrong(*_origin_problems(where, driver, reading),
-                      *_driven_twice(where, name, base, drivers), *_too_slow(where, driver))
+                      *_driven_twice(where, name, base, drivers, reading.frame.name), *_too_slow(where, driver))
         if len(reading.problems) > before or lost & {"angle", "travel", "law", "time"}:
             continue
         si = in_si(driver, reading.units)
@@ -216,15 +216,19 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     return meant
 
 
-def _driven_twice(where: str, name: str, base: str, before: Mapping[str, model.Driver]) -> list[Problem]:
+def _driven_twice(
+    where: str, name: str, base: str, before: Mapping[str, model.Driver], frame: str
+) -> list[Problem]:
     """The problem of a motion that another driver gives already; ``base`` is "" for a travel."""
     for place, other in before.items():
         if other.key == name:
             what = Phrase("link of name", name=name) if base else name
-            twice = base and not (other.turns and other.relative_to == base)
-            hint = Phrase("write the second as link relative_to", base=base, key=name) if twice else ""
-            said = Phrase("is driven by already", what=what, where=place)
-            return [Problem(where, said, hint or Phrase("leave one of them out"))]
+            said, wanted = Phrase("is driven by already", what=what, where=place), Phrase("leave one of them out")
+            if base and not (other.turns and other.relative_to == base):
+                # the frame cannot be driven: the driver that has a moving link turns about
+                wanted = (Phrase("write the first as link relative_to", base=other.relative_to, key=name)
+                          if base == frame else Phrase("write the second as link relative_to", base=base, key=name))
+            return [Problem(where, said, wanted)]
         if base and other.turns and {name, base} == {*other.links}:
             said = Phrase("the angle between links and is driven by", key=name, base=base, where=place)
             return [Problem(where, said, Phrase("leave one of them out"))]

@@ -148,6 +148,12 @@ BROKEN = {
     "no angle": (("angle = 60\n", ""), ["driver.angle", "missing", "degrees", "[drawn]"]),
     "driven twice": (
         (f"[driver]\n{DRIVER}", f"[[driver]]\n{DRIVER}\n[[driver]]\n{DRIVER}"), ["driver.2", "1", "already"]),
+    "driven from another link and from the frame": (
+        (f"[driver]\n{DRIVER}", f'[[driver]]\n{DRIVER}\nrelative_to = "2"\n[[driver]]\n{DRIVER}'),
+        ["driver.2", "1", "already", 'write the first as link = "2", relative_to = "1"']),
+    "driven from the frame and from another link": (
+        (f"[driver]\n{DRIVER}", f'[[driver]]\n{DRIVER}\n[[driver]]\n{DRIVER}\nrelative_to = "2"'),
+        ["driver.2", "1", "already", 'write the second as link = "2", relative_to = "1"']),
     "driven from both sides": (
         (f"[driver]\n{DRIVER}",
          f'[[driver]]\n{DRIVER}\nrelative_to = "2"\n[[driver]]\nlink = "2"\nangle = 1\nomega = 1\nrelative_to = "1"'),
