@@ -216,9 +216,7 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     return meant
 
 
-def _driven_twice(
-    where: str, name: str, base: str, before: Mapping[str, model.Driver], frame: str
-) -> list[Problem]:
+def _driven_twice(where: str, name: str, base: str, before: Mapping[str, model.Driver], frame: str) -> list[Problem]:
     """The problem of a motion that another driver gives already; ``base`` is "" for a travel."""
     for place, other in before.items():
         if other.key == name:

@@ -81,12 +81,12 @@ def analyse(scene: Mechanism | Structure) -> Structure:
         unknowns = [[(node, "t" if axis == AHEAD else axis) for node, axis in row] for row in unknowns]
         given = match(unknowns)
         raise Unsolvable("mobility", _wrong_part(structure, unknowns, given), *_loose_ends(structure))
-    among = structure.touching or any(d.relative_to != scene.frame.name for d in scene.drivers)
-    if among and (twice := driven_twice(scene, structure.touching, structure.links, structure.slides)):
-        given_already = [Phrase("slides wheels and other drivers give", driver=d.key, link=d.link, other=d.relative_to)
-                         for d in twice]  # fmt: skip
-        raise Unsolvable("mobility", *(Problem(Phrase("status mobility"), found, "drive another pair")
-                                       for found in given_already))  # fmt: skip
+    is_relative = structure.touching or any(d.relative_to != scene.frame.name for d in scene.drivers)
+    if is_relative and (twice := driven_twice(scene, structure.touching, structure.links, structure.slides)):
+        said = (Phrase("slides wheels and other drivers give", driver=d.key, link=d.link, other=d.relative_to)
+                for d in twice)  # fmt: skip
+        raise Unsolvable("mobility", *(Problem(Phrase("status mobility"), phrase, "drive another pair")
+                                       for phrase in said))  # fmt: skip
     elements = _in_order(structure, _nodes(structure), unknowns, given, {scene.frame.name}, turned)
     return _with_starts(_in_parts(replace(structure, elements=elements)))
 
@@ -300,18 +300,19 @@ def _in_order(
 
     elements: list[Element] = []
     for component, members in parts(nodes):
-        whole = _element_of(structure, members, known, turned)
-        some: list[Element] = [whole]
-        if isinstance(whole, LargerGroup) and any(_later(turned, d) for d in whole.drivers):
-            here, sooner = {*known}, list[Element]()
-            for _, few in parts(component, ahead=True):
-                sooner.append(_element_of(structure, few, here, turned))
-                here.update(few)
-                if not isinstance(sooner[-1], Driven) and any(not here.issuperset(d.links) for d in sooner[-1].drivers):
-                    break
+        group = _element_of(structure, members, known, turned)
+        chosen: list[Element] = [group]
+        if isinstance(group, LargerGroup) and any(_later(turned, driver) for driver in group.drivers):
+            placed, smaller = {*known}, list[Element]()
+            for _, links in parts(component, ahead=True):
+                part = _element_of(structure, links, placed, turned)
+                smaller.append(part)
+                placed.update(links)
+                if not isinstance(part, Driven) and any(not placed.issuperset(d.links) for d in part.drivers):
+                    break  # only a driven link can be turned from one that is placed later
             else:
-                some = sooner
-        elements += some
+                chosen = smaller
+        elements += chosen
         known.update(members)
     return tuple(elements)
 
