@@ -173,11 +173,11 @@ class CamMade:
         metres, study = self.mechanism.units.metres, self.study
         lift = 1.0 if self._swings else metres
 
-        def told(angle: float) -> float:
+        def degrees(angle: float) -> float:
             return tidy(math.degrees(angle))
 
         def at(extreme: AtDegree | None, per: float = 1.0) -> dict[str, float] | None:
-            return None if extreme is None else {"value": extreme.value / per, "degree": told(extreme.degree)}
+            return None if extreme is None else {"value": extreme.value / per, "degree": degrees(extreme.degree)}
 
         return {
             "follower": self.cam.follower,
@@ -189,12 +189,12 @@ class CamMade:
             "velocity": at(study.velocity, lift),
             "acceleration": at(study.acceleration, lift),
             "radius": at(study.radius, metres),
-            "undercut": [[told(start), told(end)] for start, end in study.undercut],
-            "jumps": [{"order": order, "degree": told(jump.degree), "by": jump.value / lift}
+            "undercut": [[degrees(start), degrees(end)] for start, end in study.undercut],
+            "jumps": [{"order": order, "degree": degrees(jump.degree), "by": jump.value / lift}
                       for order, jumps in enumerate((study.impacts, study.soft_impacts), 1) for jump in jumps],
             "least_base": None if self.wanted_base is None else self.wanted_base / metres,
             "divisions": [
-                {"number": k, "degree": told(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
+                {"number": k, "degree": degrees(d.degree), "lift": d.lift / lift, "pressure": d.pressure}
                 for k, d in enumerate(divisions(self.sheet))
             ],
             "drawn": {"pitch": self.drawn.pitch / metres, "profile": self.drawn.profile / metres,

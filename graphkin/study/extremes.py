@@ -76,13 +76,13 @@ class Traced:
     @property
     def zero_stretches(self) -> tuple[tuple[float, float], ...]:
         """The first and the last driver value of each zero: the same, but of a stretch along which it is zero."""
-        found = []
+        stretches = []
         for k in (k for k in range(len(self.rests)) if not self.rests[k - 1]):
             last = k
             while self.rests[last]:
                 last = (last + 1) % len(self.rests)
-            found.append((self.zeros[k], self.zeros[last]))
-        return tuple(found)
+            stretches.append((self.zeros[k], self.zeros[last]))
+        return tuple(stretches)
 
     def furthest(self, sense: float, kind: str = "") -> Extreme | None:
         """The extreme (of a kind) of the greatest value, with -1 for ``sense`` of the least; the first of equal ones.
