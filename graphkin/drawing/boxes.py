@@ -27,6 +27,7 @@ from graphkin.plane import added_up
 from graphkin.scene.scene_tables import Convention
 from graphkin.words import Phrase, Wording, in_all, languages, word
 from graphkin.words.symbols import RichText, Words
+from graphkin.words.written import in_sentence
 
 MARGIN = 8.0  # of a page
 INSIDE = 174.0  # width of a page between its margins, where a figure has none of its own
@@ -265,9 +266,7 @@ def worked_page(
         column(*(numbered(step.number, account.say(step.phrase, each), WORKED, STEP, step=step.number)
                  for step in sheet.steps)) for each in every
     ]  # fmt: skip
-    lines = [
-        line.with_words(lambda words: words.replace(" -", " −")) for note in notes for line in in_all(note, language)
-    ]
+    lines = [line.with_words(in_sentence) for note in notes for line in in_all(note, language)]
     return page(
         heading(own, given, WORKED), column(*drawn, *told, results, prose(lines, WORKED, STEP, classes=TOLD), gap=3.0),
         foot(scale, WORKED, language), said=said, language=language, metadata=metadata, margin=12.0,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from decimal import Decimal, localcontext
 
 MOST = 5  # figures of a computed number
@@ -153,6 +154,15 @@ def true_minus(text: str) -> str:
     '−2.5'
     """
     return text.replace("-", "−")
+
+
+def in_sentence(words: str) -> str:
+    """A sentence with the minus sign of print before its numbers; the hyphens of names stay.
+
+    >>> in_sentence("P1-6 at -30°, （-5 mm）")
+    'P1-6 at −30°, （−5 mm）'
+    """
+    return re.sub(r"(?<![\w./-])-(?=\d)", "−", words)
 
 
 def printed(text: str) -> str:

@@ -49,6 +49,7 @@ from graphkin.structure import Dyad, Structure
 from graphkin.structure.transmission import joint_of_dyad
 from graphkin.words import Neutral, Phrase, Wording
 from graphkin.words.symbols import RichText, sign, spaced
+from graphkin.words.written import in_sentence
 
 ROOM = 16.0  # mm around the figure, for names
 OFFSETS = tuple(side * far for far in (9.0, 12.5, 17.0, 22.0, 28.0, 35.0, 43.0, 52.0) for side in (-1.0, 1.0))  # mm
@@ -422,7 +423,7 @@ def _measured_lines(shown: Shown, page: FigurePage) -> list[RichText]:
         said += page.said("positions of", pair=Neutral(pair), values=Neutral(values))
     for symbol, why in shown.without.items():
         lines = page.said("no limits", output=page.letters.vector(symbol), reason=why)
-        said += [line.with_words(lambda words: words.replace(" -", " −")) for line in lines]
+        said += [line.with_words(in_sentence) for line in lines]
     return said
 
 
