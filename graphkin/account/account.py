@@ -62,8 +62,8 @@ def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[Writte
     shared = False  # whether the next step may go on in the line of the one before
     for step in sheet.steps:
         if step.diagram != "mechanism":  # what is measured from the mechanism stands there by now
-            ready = [one for one in lengths if to_come.isdisjoint(one[0])]
-            lines += [bound(line) for _, line in ready]
+            ready = [one for one in lengths if to_come.isdisjoint(one[1])]
+            lines += [bound(line) for *_, line in ready]
             lengths = [one for one in lengths if one not in ready]
         elif isinstance(step, PlaceStep) and step.reason in TAKEN_FROM_THE_MECHANISM:
             to_come.discard(step.point)

@@ -17,9 +17,11 @@ from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Sheet, either_way
 from graphkin.construction.board.steps import (
     DiagramName,
+    EndStep,
     RateStep,
     RateTrial,
     Size,
+    Step,
     Superposed,
     VectorStep,
 )
@@ -76,27 +78,43 @@ def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
     return f"{printed(length)} mm × {number(per)} {shown}/mm = {printed(value)} {unit}{more}"
 
 
-def lengths_measured(sheet: Sheet, letters: Notation) -> Iterator[tuple[tuple[str, str], RichText]]:
-    """Each length that enters an equation and is not given, in the order of use, by its ends, with its millimetres:
-    ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
-    bars: dict[frozenset[str], tuple[str, str]] = {}
+def lengths_measured(
+    sheet: Sheet, letters: Notation, images: bool = False
+) -> Iterator[tuple[int, tuple[str, str], RichText]]:
+    """Each length that enters a sum and is not given, in the order of use: the number of the first step that uses it,
+    its ends, and its millimetres: ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``.
+
+    ``images`` tells whether ratios of images are sums too.
+    """
+    bars: dict[frozenset[str], tuple[int, tuple[str, str]]] = {}
     for step in sheet.steps:
-        bar = (step.points[0], step.points[1]) if isinstance(step, RateStep) and step.reason == "rate" else None
-        size = step.size if isinstance(step, VectorStep) else None
-        if size and size.rule == "rate" and not isinstance(size.factor, Symbol):
-            bar = size.factor
-        if bar is not None and not is_given(sheet, bar):
-            bars.setdefault(frozenset(bar), bar)
-    for one, other in bars.values():
+        for bar in _bars_of(step, images):
+            if not is_given(sheet, bar):
+                bars.setdefault(frozenset(bar), (step.number, bar))
+    for step_number, (one, other) in bars.values():
         pushed = pushed_by_driver(sheet.structure, sheet.drivers, (one, other))
         if pushed is not None:
             driver, far = pushed
             value = f"{printed(as_given(far / sheet.scene.units.metres))} {sheet.scene.units.length}"
-            travel = sign("s", slide_index(sheet, driver.key))
-            yield (one, other), letters.length((one, other)) + " = " + travel + f" = {value}"
-            continue
-        mm = sheet.arm_mm((one, other)) or 0.0
-        yield (one, other), letters.length((one, other)) + f" = {times_scale(sheet, 'mechanism', mm)}"
+            told = sign("s", slide_index(sheet, driver.key)) + f" = {value}"
+        else:
+            told = RichText(times_scale(sheet, "mechanism", sheet.arm_mm((one, other)) or 0.0))
+        yield step_number, (one, other), letters.length((one, other)) + " = " + told
+
+
+def _bars_of(step: Step, images: bool) -> Iterator[tuple[str, str]]:
+    """The bars by whose lengths a step multiplies or divides."""
+    if isinstance(step, RateStep) and step.reason == "rate":
+        yield step.points[0], step.points[1]
+    sizes = [step.size] if isinstance(step, VectorStep) else []
+    if isinstance(step, EndStep):
+        sizes = [term.size for term in step.terms]
+        if images and step.reason == "division" and not step.held:
+            start, end = (ref.point for ref in step.refs)
+            yield from ((start, step.ref.point), (start, end))
+    for size in sizes:
+        if size is not None and size.rule == "rate" and not isinstance(size.factor, Symbol):
+            yield size.factor
 
 
 def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar, TypeVar
 
-from graphkin.account.arithmetic import times_scale
+from graphkin.account.arithmetic import lengths_measured, times_scale
 from graphkin.account.notation import Notation, notation_of, pole
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import (
@@ -240,6 +240,14 @@ class Account:
         return next((p for one in refs for p in self._named.get(diagram, ()) if p.ref == one), None)
 
     @cached_property
+    def lengths(self) -> Mapping[int, Sequence[RichText]]:
+        """The lengths that are measured for the sums of a step, by its number."""
+        measured: dict[int, list[RichText]] = {}
+        for step, _, line in lengths_measured(self.sheet, self.letters, images=True):
+            measured.setdefault(step, []).append(line)
+        return measured
+
+    @cached_property
     def _named(self) -> Mapping[DiagramName, tuple[NamedPoint, ...]]:
         diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
         return {diagram: PolygonPoints(self.sheet, diagram, self.letters).named for diagram in diagrams}
@@ -292,8 +300,9 @@ class Telling:
 
     @property
     def work(self) -> tuple[Words, ...]:
-        """Its sums, as lines of symbols and numbers."""
-        return tuple(self.arithmetic.get(self.step.reason, type(self).measured)(self))
+        """Its sums, as lines of symbols and numbers, after the lengths measured for them."""
+        lengths = self.account.lengths.get(self.step.number, ())
+        return (*lengths, *self.arithmetic.get(self.step.reason, type(self).measured)(self))
 
     def measured(self) -> Iterable[Words]:
         """Each measured vector of the step."""

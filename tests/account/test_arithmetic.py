@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from graphkin import check, draw, read
-from graphkin.account.account import written_lines
+from graphkin.account.account import telling, written_lines
 from graphkin.account.arithmetic import (
     divisions,
     factors_of,
@@ -26,6 +26,7 @@ from graphkin.account.arithmetic import (
     trials_of,
 )
 from graphkin.account.notation import notation_of
+from graphkin.account.voice import account_of
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
@@ -49,8 +50,18 @@ def drawn(name):
 
 def test_a_length_that_is_not_given_stands_with_its_millimetres():
     assert ["$l_{CB}$ = 190.80 mm × 2 mm/mm = 381.6 mm"] == [
-        repr(line) for _, line in lengths_measured(*drawn("sixbar-guide-40deg"))
+        repr(line) for *_, line in lengths_measured(*drawn("sixbar-guide-40deg"))
     ]
+
+
+def test_a_solution_measures_a_length_in_the_step_that_needs_it_first():
+    account = account_of(drawn("sixbar-guide-40deg")[0])
+    told = [repr(line) for step in account.sheet.steps for line in telling(account, step).work]
+    lengths = [(line, told[k + 1].split(" = ")[0]) for k, line in enumerate(told) if line.startswith("$l_")]
+    assert [
+        ("$l_{CB}$ = 190.80 mm × 2 mm/mm = 381.6 mm", "$ω_{3}$"),
+        ("$l_{CD}$ = 83.79 mm × 2 mm/mm = 167.58 mm", "$v_{D3}$"),
+    ] == lengths
 
 
 def test_nothing_is_measured_where_every_length_is_given():
@@ -221,13 +232,13 @@ def test_sizes_relative_to_a_held_link_stand_in_numbers():
 
 
 def test_lengths_from_a_special_point_are_measured_before_they_are_used():
-    named = [repr(line).split(" = ")[0] for _, line in lengths_measured(*drawn("single-flier"))]
+    named = [repr(line).split(" = ")[0] for *_, line in lengths_measured(*drawn("single-flier"))]
     assert ["$l_{SH}$", "$l_{KS}$", "$l_{JS}$"] == named
 
 
 def test_what_a_cylinder_is_pushed_to_is_given_and_not_measured():
     assert ["$l_{CB}$ = $s_{23}$ = 520 mm"] == [
-        repr(line) for _, line in lengths_measured(*drawn("hydraulic-cylinder"))
+        repr(line) for *_, line in lengths_measured(*drawn("hydraulic-cylinder"))
     ]
 
 
@@ -262,7 +273,7 @@ def test_with_a_pencil_each_product_and_quotient_follows_from_what_it_shows(name
     sheet, _ = drawn_by_hand(name)
     letters = notation_of(sheet, "chinese")
     lines = [line for line in written_lines(sheet, letters, "en") if not isinstance(line, Equation)]
-    lines += [line for _, line in lengths_measured(sheet, letters)]
+    lines += [line for *_, line in lengths_measured(sheet, letters)]
     whole = " ".join(map(repr, lines)).replace("\u00a0", " ").replace(" mm/mm", "")
     number, false = r"\d[\d.]*", []
     for sum_, told in re.findall(rf"((?:{number}²?(?: mm)? [×/] )+{number}²?) = ({number})(?![\d.·])", whole):
@@ -346,7 +357,7 @@ def test_trials_that_differ_by_less_than_a_ruler_shows_are_divided_by_what_they_
 def test_a_hand_writes_no_more_than_its_ruler_shows():
     hand = pencil(Tools(), 1)
     sheet = draft(mechanism_of("sixbar-guide-40deg"), instrument=hand)
-    measured = [str(told).split(" = ")[-1] for _, told in lengths_measured(sheet, notation_of(sheet, "chinese"))]
+    measured = [str(told).split(" = ")[-1] for *_, told in lengths_measured(sheet, notation_of(sheet, "chinese"))]
     assert [] == [told for told in measured if "(" in told]
     sheet = draft(mechanism_of("contour-four-bars"), instrument=hand)
     steps = [step for step in sheet.steps if isinstance(step, Superposed)]
