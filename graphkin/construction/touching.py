@@ -16,7 +16,7 @@ from functools import cached_property, lru_cache
 
 from graphkin.construction.board.steps import OnPaper
 from graphkin.plane import Pose, dot, unit
-from graphkin.scene.laws import TURN, Lift
+from graphkin.scene.laws import Lift
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import ContactMotion, HigherPair, LawCam, PlacedContact, PlacedGear, SlidingFollower
 
@@ -289,10 +289,4 @@ def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
 @lru_cache(maxsize=64)
 def stations(cam: LawCam) -> tuple[CamStation, ...]:
     """The follower turned back to many places around a turn (lengths in m); on both sides of each seam of the law."""
-    around: list[CamStation] = []
-    for part in cam.law.parts:
-        count = max(2, math.ceil(POINTS * (part.end - part.start) / TURN))
-        for k in range(count + 1):
-            degree = part.start + (part.end - part.start) * k / count
-            around.append(station(cam, degree, part.at(degree)))
-    return tuple(around)
+    return tuple(station(cam, degree, part.at(degree)) for part in cam.law.parts for degree in part.places(POINTS))

@@ -25,6 +25,8 @@ DOUBT = 256 * 2.0**-53, 64 * 2.0**-53, 320 * 2.0**-53
 sums of terms that cancel in the laws, and the next derivative times the rounding of the share of the time."""
 
 TURN = 2 * math.pi
+CHORDS = 40
+"""Along a lift at least: so no chord is more than 1/1600 of it off its curve."""
 SEAM = 1e-12
 """An angle (rad) nearer than this before a seam belongs to the piece after it."""
 
@@ -136,6 +138,11 @@ class LiftPiece:
         _, form = LAWS[self.by][self.which]
         f, f1, f2, f3 = form((angle - self.start) / wide, m)
         return Lift(self.low + h * f, h * f1 / wide, h * f2 / wide**2, h * f3 / wide**3)
+
+    def places(self, around: int) -> tuple[float, ...]:
+        """Angles (rad) from end to end at which a part is drawn, at least so many to a turn."""
+        count = max(CHORDS if self.high != self.low else 2, math.ceil(around * (self.end - self.start) / TURN))
+        return tuple(self.start + (self.end - self.start) * k / count for k in range(count + 1))
 
     def extremes(self, order: int) -> tuple[tuple[float, float], ...]:
         """The first or second derivative of a part at both ends and at its peaks inside, each with its angle (rad), in

@@ -16,9 +16,11 @@ import shapely
 import graphkin
 from graphkin.checking.closed_form import compare_cam
 from graphkin.construction import cam_sheet as cam_module
+from graphkin.construction.board.steps import Curve
 from graphkin.construction.cam_sheet import cam_sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.ink.primitives import Line, Text, walk
+from graphkin.drawing.figures.constructions import cam_pictures
+from graphkin.drawing.ink.primitives import Line, Polyline, Text, walk
 from graphkin.drawing.text import text_box
 from graphkin.errors import CallError, Disagreement
 from graphkin.scene import mechanism_of
@@ -141,6 +143,23 @@ def test_the_greatest_velocity_and_acceleration_are_those_of_the_law_at_its_own_
     assert (0.024 * acceleration / wide**2, bent) == pytest.approx(
         (study.acceleration.value, math.degrees(study.acceleration.degree))
     )
+
+
+@pytest.mark.parametrize("by", ["harmonic", "4567"])
+def test_the_chords_of_a_short_steep_rise_are_seen_neither_in_the_diagram_nor_in_the_profile(by):
+    made = with_law([{"to": 30, "rise": 24, "by": ""}, {"to": 360, "fall": 24, "by": ""}], by)
+    page, _ = cam_pictures(made.mechanism, made.cam, made.sheet, "en")
+    (shape,) = (part for part in walk(page.children) if getattr(part, "id", "") == "displacement")
+    (diagram,) = (np.array(part.points) for part in shape.children if isinstance(part, Polyline))
+    high = np.ptp(diagram.imag)
+    middle = (diagram[1:] + diagram[:-1]) / 2
+    degree = math.tau * (middle.real - diagram.real.min()) / np.ptp(diagram.real)
+    lift = np.array([made.cam.law.at(float(at)).lift for at in degree]) / 0.024
+    assert np.abs(diagram.imag.max() - high * lift - middle.imag).max() < 0.03
+    (_, profile) = (stroke.curve for step in made.sheet.steps for stroke in step.strokes if isinstance(stroke, Curve))
+    drawn = shapely.LineString([(z.real, z.imag) for z in profile])
+    exact = cam_at(made.cam, np.linspace(0, math.radians(30), 300)[1:-1]).profile / made.sheet.scales.length
+    assert max(drawn.distance(shapely.Point(z.real, z.imag)) for z in exact) < 0.05
 
 
 @pytest.mark.parametrize(("omega", "velocity"), [(10, "152.789 mm/s"), (-10, "−152.789 mm/s")])

@@ -10,7 +10,7 @@ import shapely
 
 from graphkin import draw
 from graphkin.drawing import Box, Text
-from graphkin.drawing.ink.primitives import Circle, Group, Line, walk
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, walk
 from graphkin.drawing.place.numbers import beside_ring, step_numbers
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import text_box
@@ -163,6 +163,18 @@ def test_a_compass_arc_runs_over_the_block_whose_pin_it_finds_and_under_the_pin(
     layers = {group.id: group for group in drawn("slider-crank-offset").figures["mechanism"].children}
     order = [one.id or " ".join(one.classes) for one in layers["mechanism"].children]
     assert order.index("link-3") < order.index("compass") < order.index("point-C")
+
+
+def test_the_crossing_of_the_arcs_that_find_a_tangent_is_joined_to_the_pivot_of_its_guide():
+    # the arcs crossed at an empty place
+    layers = {group.id: group for group in drawn("cam-eccentric-flat-rocker").figures["mechanism"].children}
+    ((line,),) = (group.children for group in layers["construction"].children if "tangent" in group.classes)
+    arcs = [thing for group in layers["construction"].children if "compass" in group.classes
+            for thing in walk(group.children) if isinstance(thing, Arc)]  # fmt: skip
+    crossing = [arc for arc in arcs if abs(abs(line.start - arc.centre) - arc.radius) < 1e-9]
+    assert 2 == len(crossing)
+    pivot = next(group for group in layers["mechanism"].children if group.id == "point-O")
+    assert line.end == pytest.approx(next(one.centre for one in walk(pivot.children) if isinstance(one, Circle)))
 
 
 def test_a_number_without_room_at_its_vector_stands_beside_its_name():

@@ -447,11 +447,7 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
     def cell(z: complex, runs: tuple[Run, ...], anchor: str = "middle") -> None:
         labels.append(Text(z, runs, anchor, classes=("cell",)))
 
-    curve: list[complex] = []
-    for part in law.parts:
-        count = max(2, math.ceil(120 * (part.end - part.start) / TURN))
-        degrees = [part.start + (part.end - part.start) * k / count for k in range(count + 1)]
-        curve += [at(degree, part.at(degree).lift) for degree in degrees]
+    curve = tuple(at(degree, part.at(degree).lift) for part in law.parts for degree in part.places(120))
     drawn: list[Primitive] = [Line(origin, origin + LONG + 5.0, strokes.DIMENSION),
                               Line(origin, top - 5.0j, strokes.DIMENSION)]  # fmt: skip
     labels: list[Primitive] = []
@@ -482,7 +478,7 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
     cell(origin + 13.0j, rich(scale, SMALL + 0.4), "start")
     labels += [Text(top + (1.0 - 3.0j), rich(s, STEP)), Text(origin + (LONG + 5.5 - 1.0j), rich(sign("φ"), STEP))]
     if not begun:
-        drawn.append(Polyline(tuple(curve), strokes.LINK))
+        drawn.append(Polyline(curve, strokes.LINK))
     shape = Group(tuple(drawn), id="displacement", classes=("diagram",))
     return Block(Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0, WORKED)
 

@@ -476,8 +476,13 @@ CROSS = 0.9  # mm: half a cross that marks a trial position
 
 
 def compass_arcs(here: MechanismOnPaper) -> Piece:
-    """Compass arcs near the points that they find, drawn over a block that would hide all but their ends."""
-    under: list[Primitive] = []
+    """Compass arcs near the points that they find, drawn over a block that would hide all but their ends; from the foot
+    of a tangent the line to its pivot."""
+    under: list[Primitive] = [
+        Group((Line(on_page(s.a), on_page(s.b), strokes.CONSTRUCTION),), classes=("tangent",), step=step.number)
+        for step in here.steps if isinstance(step, PlaceStep) and step.reason == "tangent"
+        for s in step.strokes if isinstance(s, Bar)
+    ]  # fmt: skip
     over: list[Primitive] = []
     arcs = [
         (step, stroke) for step in here.steps
