@@ -455,12 +455,11 @@ def _without_twins(
         return added_up(travel(slide, poses, paper.mm) for slide in slides)
 
     kept: list[tuple[dict[str, Pose], dict[str, complex]]] = []
-    size = structure.scene.size
+    apart = TWINS * structure.scene.size
     for poses in sorted(fits, key=positive, reverse=True):
         places = paper.fresh(poses)
         # of links without points the links themselves
-        distances = (max((abs(z - other[p]) for p, z in places.items()), default=moved(poses, kept_poses) * size)
-                 for kept_poses, other in kept)  # fmt: skip
-        if all(distance > TWINS * size for distance in distances):
+        if all(any(abs(z - other[p]) > apart for p, z in places.items())
+               or (not places and moved(poses, kept_poses) > TWINS) for kept_poses, other in kept):  # fmt: skip
             kept.append((poses, places))
     return [poses for poses in fits if any(poses is kept_poses for kept_poses, _ in kept)]
