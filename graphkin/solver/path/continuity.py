@@ -25,6 +25,8 @@ CLOSE = 2e-13
 """A position is found where no constraint is open by more, with lengths in the size."""
 LEAST = 1e-13
 BEND = 0.2
+FAR = 3.0
+"""Beyond so many sizes of the mechanism the places of links that go away count in parts of their distance."""
 AT_END = 1e-9
 BESIDE = 0.003
 TOWARD = 0.75  # part of what is left to a dead point that is taken in one step
@@ -108,6 +110,7 @@ def _walk_group(
             nodes.append(t)
             places.append(there.place[0])
             determinants.append(float(there.determinant[0]))
+            weight[:2] = max([size, *(float(abs(pose.z[0])) / FAR for pose in there.poses.values())])
             # what has just been too far is not tried again at once
             step, fresh = min(most, step * (1.0 if not fresh else 2.0 if misfit < 0.005 else 1.2)), True
             continue
