@@ -2,25 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 
 from graphkin.checking.report import Report
-from graphkin.construction import Sheet, draft
+from graphkin.construction import Sheet, execute, plan
 from graphkin.drawing import Drawing
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.drawing.figures.sheet import sheet_page
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import mechanism_of
+from graphkin.scene.model import Mechanism
 
-__all__ = ["drafted", "drawn", "figures"]
+__all__ = ["drafted", "drafts", "drawn", "figures"]
 
 
 @cache
 def drafted(name: str) -> tuple[Sheet, Sheet]:
     """The construction for single figures, and for the sheet."""
-    scene = mechanism_of(name)
-    return draft(scene), draft(scene, room=sheet_room(scene))
+    return drafts(mechanism_of(name))
+
+
+def drafts(scene: Mechanism, at: Mapping[str, float] | None = None) -> tuple[Sheet, Sheet]:
+    """The construction for single figures, and for the sheet, at driver values (rad, m): one plan at two scales."""
+    planned = plan(scene, at)
+    return execute(planned), execute(replace(planned, scales=planned.scales_for(sheet_room(scene))))
 
 
 def drawn(name: str, language: str = "en", convention: str = "chinese") -> dict[str, Drawing]:

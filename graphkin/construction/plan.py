@@ -108,6 +108,13 @@ class Plan:
         """Whether forces can be drawn: there are masses or loads, and all that they need is drawn."""
         return self.is_whole and self.without_forces is None and bool(self.structure.scene.loading)
 
+    @cached_property
+    def force_scales(self) -> Mapping[tuple[str, ...], float]:
+        """The scales of its force polygons, by exact hands, as in `Sheet`.  Raises Unsolvable as `with_forces`."""
+        from graphkin.construction.forces.draw import force_scales
+
+        return force_scales(self.exact.at(self.scales))
+
     @property
     def forces_not_known(self) -> Phrase | None:
         """The sentence on why no forces are drawn."""
@@ -483,9 +490,7 @@ def execute(planned: Plan, instrument: Instrument = EXACT, own_values: OwnValues
     sheet = finished(planned, carried_out(planned, planned.scales, instrument, own_values))
     if instrument.faultless or not planned.has_forces:
         return sheet
-    from graphkin.construction.forces.draw import force_scales
-
-    return replace(sheet, force_scales=force_scales(planned.exact.at(planned.scales)))
+    return replace(sheet, force_scales=planned.force_scales)
 
 
 def draft(

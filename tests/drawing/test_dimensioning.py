@@ -13,7 +13,7 @@ from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import rich, text_box
 from graphkin.scene import library
 from graphkin.words.written import as_given
-from tests.drawn import drafted, drawn
+from tests.drawn import drafted
 
 SCENE = {
     "units": {"length": "mm"},
@@ -66,7 +66,7 @@ def test_every_bar_has_its_length(name):
     sheet, _ = drafted(name)
     scene = sheet.scene.instead_of or sheet.scene  # bars in place of a cam have no length of their own
     lengths = {as_given(link.length / scene.units.metres) for link in scene.links if link.length and not link.redundant}
-    assert lengths - set(words(drawn(name)["mechanism"])) == set()
+    assert lengths - set(words(draw(name, figures=("mechanism",)).figures["mechanism"])) == set()
 
 
 def test_the_angle_of_the_crank_is_dimensioned():

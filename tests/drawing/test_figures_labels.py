@@ -11,14 +11,12 @@ import pytest
 import graphkin
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import compare
-from graphkin.construction import draft
 from graphkin.drawing import svg_bytes
 from graphkin.drawing.ink.primitives import Text, walk
-from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
 from tests import EVERYTHING
-from tests.drawn import figures
+from tests.drawn import drafts, figures
 from tests.scenes import FIXED_PIN
 
 POSITIONS = 24 if EVERYTHING else 3
@@ -37,7 +35,7 @@ def test_no_label_is_overlapped_crossed_or_cut(
     step = 2 * math.pi / POSITIONS if driver.turns else 0.06 * abs(value) / POSITIONS
     at = {driver.key: value + turn * step}
     try:
-        own, on_sheet = draft(scene, at=at), draft(scene, at=at, room=sheet_room(scene))
+        own, on_sheet = drafts(scene, at)
     except Unsolvable:
         pytest.skip("the motion does not reach this position")
     readings = read_off(on_sheet)
