@@ -137,18 +137,24 @@ def strokes_between(
 def greatest_and_least(
     function: Callable[[Array], Array], places: Array, values: Array, within: float
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Place and value of the greatest and of the least value of a sampled course, each sought between the neighbours of
-    its sample; not where these are out of order, as where a turn begins anew."""
-    found = []
+    """Place and value of the greatest and of the least value of a sampled course over growing places, each sought
+    between the neighbours of every sample beside which it may lie."""
+    found, last = [], len(places) - 1
     for sign in (-1.0, 1.0):
-        k = int(np.nanargmin(sign * values))
-        place, value = float(places[k]), float(values[k])
-        low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, len(places) - 1)])
-        if low < high and low <= place <= high:
-            rounding = SAME_VALUE * float(np.nanmax(np.abs(values[max(k - 1, 0) : k + 2])))
-            near, least = least_value(lambda at, by=sign: by * function(at), low, high, within=within)  # type: ignore[misc]
-            place, value = (near, sign * least) if least < sign * value - rounding else (place, value)
-        found.append((place, value))
+        course = sign * values
+        k = int(np.nanargmin(course))
+        place, least = float(places[k]), float(course[k])
+        # a curve through three samples goes no farther beyond the middle one than that lies beyond the others
+        beside = np.concatenate([course[1:2], course, course[-2:-1]])
+        beside = np.stack([beside[:-2], beside[2:]])
+        rounding = SAME_VALUE * np.fmax.reduce(np.abs([course, *beside]))
+        dips = (course <= beside).all(axis=0) & (2 * course - beside.max(axis=0) < least - rounding)
+        for dip in {k, *np.flatnonzero(dips).tolist()}:
+            low, high = float(places[max(dip - 1, 0)]), float(places[min(dip + 1, last)])
+            near, value = least_value(lambda at, by=sign: by * function(at), low, high, within=within)  # type: ignore[misc]
+            if value < least - rounding[dip]:
+                place, least = near, value
+        found.append((place, sign * least))
     return found[0], found[1]
 
 

@@ -11,6 +11,7 @@ from graphkin.search import (
     angles_between,
     changes,
     extrapolated,
+    greatest_and_least,
     intervals,
     last_true,
     least_value,
@@ -53,6 +54,17 @@ def test_an_extreme_where_two_pieces_meet_is_found_once(amplitude: float, level:
     for place in (np.arange(1, FIRST_PIECES) / FIRST_PIECES).tolist():
         pieces = resolve(lambda t, at=place: column(level + amplitude * np.cos(3 * (t - at))), 0.0, 1.0)  # type: ignore[misc]
         assert [place] == pytest.approx([turn.place for turn in pieces.turns(0)], abs=1e-6)
+
+
+@pytest.mark.parametrize("top", [0.27, 0.98])
+def test_the_greatest_value_is_told_of_the_peak_that_falls_between_samples(top: float) -> None:
+    def peaks(at: Array) -> Array:
+        return np.asarray(0.99 * np.exp(-(((at - 0.61) / 0.08) ** 2)) + np.exp(-(((at - top) / 0.08) ** 2)))
+
+    places = np.linspace(0.0, 1.0, 14)
+    (place, greatest), _ = greatest_and_least(peaks, places, peaks(places), 1e-9)
+    exact = peaks(at := np.linspace(0.0, 1.0, 100001))
+    assert (at[exact.argmax()], exact.max()) == pytest.approx((place, greatest), abs=1e-5)
 
 
 def test_an_extreme_where_a_turn_begins_is_counted_once() -> None:

@@ -203,7 +203,16 @@ class DriverAxis(Axis):
         return np.asarray(np.degrees(along if reach.sense > 0 else high - along))
 
     def values(self, quantity: Symbol, places: Array) -> Array:
+        places = places % self.reach.ends[1] if self.reach.full else places
         return course_of(quantity, self.reach, self.reach.motion(places, extended=False))
+
+    def extremes(self, quantity: Symbol, places: Array, values: Array) -> tuple[Extreme, Extreme]:
+        """As of every axis; of a whole turn also between the places where it ends and begins anew."""
+        if not self.reach.full:
+            return super().extremes(quantity, places, values)
+        high = self.reach.ends[1]
+        most, least = super().extremes(quantity, np.unwrap(places, period=high), values)
+        return replace(most, offset=most.offset % high), replace(least, offset=least.offset % high)
 
     def shown(self, quantity: Symbol, places: Array, values: Array) -> Array:
         """Values (SI) in units of the figure; an angle of a link without a jump along the axis."""

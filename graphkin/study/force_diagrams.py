@@ -189,8 +189,8 @@ def polar_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.Cha
     mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
     facts: list[Words] = [name + word("colon", language) + word(panel.without_bound, language)]
     if not panel.unbounded:
-        k = int(np.nanargmax(sizes))
-        size, place = f"{charts.number(float(sizes[k]))} {unit.text}", f"{charts.number(float(x[k]), 4)}{mark}"
+        _, driver, greatest = next(extreme for extreme in panel.extremes if extreme[0].kind == "max")
+        size, place = f"{charts.number(greatest)} {unit.text}", f"{charts.number(driver, 4)}{mark}"
         facts = [say(Phrase("greatest force at", force=size, place=place), language)]
     most = charts.span_of(panel.curve, bounded=not panel.unbounded)[1]
     whole = np.concatenate([vector[sizes <= most], [0j]])

@@ -146,7 +146,8 @@ def test_a_force_that_grows_without_bound_is_said_to():
 @pytest.mark.parametrize(
     ("scene", "force", "least", "at"),
     [
-        ("boom-lifted", "F_4/1", 0.728606, 758.589),  # beside ends of the motion where it grows without bound
+        # beside an end of the motion, towards which it grows without bound; 0.728606 at 758.589 is but the least sample
+        ("boom-lifted", "F_4/1", 0.504888, 39.9306),
         ("boom-lifted", "F_1/2", 0.0329722, 750.700),
         ("boom-lifted", "F_2", 0.0, 750.822),  # it changes its sign
         ("toggle-press-force", "F_6/1", 0.140029, 350.146),  # it jumps
@@ -158,6 +159,21 @@ def test_the_least_force_is_nought_only_where_it_is(scene, force, least, at):
     low = graphkin.sweep(scene).data["forces"][force]["extremes"][-1]
     driver = at if scene == "boom-lifted" else np.radians(at)
     assert (least, driver) == pytest.approx((low["value"], low["driver"]), rel=3e-6)
+
+
+def test_the_least_force_is_sought_also_beside_the_position_at_which_the_turn_begins():
+    # it was that of the sample beside, 350.154°
+    scene = graphkin.read("toggle-press-force").replace("driver.angle", 350.1)
+    _, low = graphkin.sweep(scene, positions=2).data["forces"]["F_6/1"]["extremes"]
+    assert 350.14634 == pytest.approx(math.degrees(low["driver"]), abs=2e-4)
+
+
+def test_a_polar_diagram_tells_the_greatest_force_of_the_turn_between_its_points():
+    said = graphkin.sweep("rocker-return-spring", positions=2, find=["F_4/3"]).figures["polar-F_4-3"].desc
+    turn = graphkin.solve("rocker-return-spring", sweep=3600)
+    sizes = np.abs(turn["F_4/3"])
+    place = math.degrees(turn.data["positions"][int(sizes.argmax())]["driver"]["1"]) % 360
+    assert f"{sizes.max():.4g} N, driver at {place:.4g}°" in said
 
 
 def test_a_flywheel_asked_of_one_position_is_told_as_computed_over_the_turn():
