@@ -10,6 +10,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+import math
 import tempfile
 import zipfile
 import zlib
@@ -230,19 +231,28 @@ def _build(shelf: Shelf, asked: Message) -> Answer:
 
 
 def _keep(shelf: Shelf, asked: Message) -> Answer:
-    """The position shown, written into the scene as its own, with its sketch."""
-    scene = asked.scene(shelf)
+    """The position shown, written into the scene as its own: values or moments of its drivers, places of its sketch,
+    starts of rolling."""
+    scene, raw = asked.scene(shelf), parsed(asked.text)
     shown = pictures.shown(scene, asked.at, FigureOptions(("mechanism",)), quick=True)
     at, points = shown["at"], shown["points"]
     assert isinstance(at, dict)
     assert isinstance(points, dict)
+    moved, values = placed(scene, at if asked.at else None)
+    motion = solved_here(moved, values)
     changes: Answer = {}
-    raw = parsed(asked.text)
-    many = isinstance(raw.get("driver"), list)
-    for index, driver in enumerate(scene.drivers, 1):
-        key = f"driver.{index}" if many else "driver"
-        name = "angle" if driver.key in {link.name for link in scene.links} else "travel"
-        changes[f"{key}.{name}"] = float(f"{at[driver.key]:.10g}")
+    many = isinstance(raw["driver"], list)
+    for index, driver in enumerate(moved.drivers):
+        key, table = (f"driver.{index + 1}", raw["driver"][index]) if many else ("driver", raw["driver"])
+        changes |= {f"{key}.{other}": None for other in ("from", "near", "position") if other in table}
+        if driver.law is not None and "time" in table:
+            changes[f"{key}.time"] = float(f"{driver.law.time:.10g}")
+        else:
+            changes[f"{key}.{'angle' if driver.turns else 'travel'}"] = float(f"{at[driver.key]:.10g}")
+    for name in (name for name, link in raw["links"].items() if "start" in link):
+        slide = next((pair.key for pair in scene.slidings if pair.a == name and not pair.of), "")
+        start = motion.slide(slide)[0][0] / scene.units.metres if slide else math.degrees(motion.angle(name)[0])
+        changes[f"links.{name}.start"] = float(f"{start:.10g}")
     spots = {p: [float(f"{z[c]:.6g}") for c in "xy"] for p, z in points.items() if isinstance(z, dict)}
     for table in ("sketch", "drawn"):
         changes |= {f"{table}.{p}": spots[p] for p in raw.get(table, {}) if p in spots}

@@ -102,6 +102,14 @@ def _at(step: Step, key: str) -> list[float]:
     return [_round(x) for x in value]
 
 
+def _number(step: Step, key: str, usual: float) -> float:
+    value = step.get(key, usual)
+    if not isinstance(value, int | float) or not math.isfinite(value):
+        needed = "give degrees" if key == "angle" else "give a finite number below 1e9"
+        raise CallError.of(key, "found value", needed, value=f"{value!r:.60}")
+    return float(value)
+
+
 def _round(value: float) -> float:
     return float(f"{value:.6g}") + 0.0
 
@@ -172,9 +180,7 @@ def _slider(made: Tables, step: Step) -> OwnTables:
     fixed, _ = frame_in(made)
     guides = table_in(table_in(made, "frame"), "guides")
     guide = next(name for name in ("h", *(f"h{n}" for n in range(2, 1000))) if name not in guides)
-    angle = float(step.get("angle", 0.0) or 0.0)
-    if not math.isfinite(angle):
-        raise CallError.of("angle", "found value", "give degrees", value=angle)
+    angle = _number(step, "angle", 0.0)
     return {
         f"frame.guides.{guide}": {"through": place, "angle": _round(angle)},
         f"links.{next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **changes,
@@ -220,10 +226,10 @@ def _drive(made: Tables, step: Step) -> OwnTables:
         start = complex(*spots.get(through, (0, 0))) if isinstance(through, str) else complex(*through)
         turn = math.radians(guide.get("angle", 0.0))
         travel = (complex(*spots[ends[0]]) - start) * complex(math.cos(turn), -math.sin(turn))
-        return {"driver": {"slide": name, "travel": _round(travel.real), "velocity": float(step.get("speed") or 100.0)}}
+        return {"driver": {"slide": name, "travel": _round(travel.real), "velocity": _number(step, "speed", 100.0)}}
     z = complex(*spots[ends[1]]) - complex(*spots[ends[0]])
     angle = math.degrees(math.atan2(z.imag, z.real))
-    return {"driver": {"link": name, "angle": _round(angle), "omega": float(step.get("speed") or 10.0)}}
+    return {"driver": {"link": name, "angle": _round(angle), "omega": _number(step, "speed", 10.0)}}
 
 
 def _delete(made: Tables, step: Step) -> OwnTables:

@@ -3,6 +3,7 @@ motion."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -35,7 +36,7 @@ from graphkin.scene.symbol import asked_here
 from graphkin.solver import Motion, driver_range, solved_here
 from graphkin.solver.path.driver_range import DriverRange
 from graphkin.structure import Structure, mobility_of
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Phrase, Wording, languages, say
 
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
 FAST = 1e3  # times a driver's own speed over the size: so fast is what stands beside a dead point
@@ -100,16 +101,21 @@ def _analysed(scene: Mechanism) -> Structure:
     return solver.structure_of(scene)
 
 
-def reach(scene: Mechanism) -> tuple[float, float, DriverRange]:
-    """The range of a scene's first driver: its least and greatest value in its own unit, and the range itself.  Raises
-    GraphkinError where it cannot be found."""
+def reach(scene: Mechanism) -> tuple[float, float, bool, Wording]:
+    """The range of a scene's first driver: its least and greatest value in its own unit, whether it turns fully, and
+    the reason of its ends.  Raises GraphkinError where it cannot be found."""
     structure = _analysed(scene)
     if "range on the page" not in structure.kept:
         structure.kept["range on the page"] = driver_range(structure)
     over: DriverRange = structure.kept["range on the page"]
-    values = sorted(float(v) for v in over.value(np.array(over.ends)))
-    low, high = (0.0, 360.0) if over.full else (scene.unit_of(over.driver).of(v) for v in values)
-    return low, high, over
+    unit, law = scene.unit_of(over.driver), over.driver.law
+    low, high = sorted(unit.of(float(v)) for v in over.value(np.array(over.ends)))
+    if law is None:
+        return (0.0, 360.0, True, "") if over.full else (low, high, False, over.limit_why)
+    least, greatest = law.span
+    why = Phrase("its law goes from to", least=unit.said(least), greatest=unit.said(greatest))
+    ends = (-math.inf, math.inf) if over.full else (low, high)
+    return max(ends[0], unit.of(least)), min(ends[1], unit.of(greatest)), False, why
 
 
 def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: FigureOptions) -> tuple[Drawn, Motion]:
@@ -252,7 +258,7 @@ def _is_fast(planned: Plan) -> bool:
 
 def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
     """The last position on the path to a position that is not reached.  Raises Unsolvable where there is no path."""
-    low, high, _ = reach(scene)
+    low, high, *_ = reach(scene)
     key, wanted = next(iter(at.items()))
     inside = NEAR_END * (high - low)
     if scene.drivers[0].turns and not low <= wanted <= high:
@@ -283,8 +289,8 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     spoken = _spoken(options.language, scene)
     account = Account(sheet, notation_of(sheet, options.convention or scene.question.sheet.convention))  # type: ignore[arg-type]
     try:
-        low, high, over = reach(scene)
-        limits: dict[str, Json] = {"low": low, "high": high, "turns": over.full, "why": say(over.limit_why, spoken)}
+        low, high, turns, why = reach(scene)
+        limits: dict[str, Json] = {"low": low, "high": high, "turns": turns, "why": say(why, spoken)}
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
     steps: list[dict[str, Json]] = [

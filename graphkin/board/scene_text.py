@@ -201,7 +201,7 @@ def _keys_of(where: Wording) -> Iterable[str]:
 
 def _first(names: object) -> object:
     """The first of some names."""
-    return _first(names.gaps["first"]) if isinstance(names, Phrase) else names
+    return _first(names.gaps["first"]) if isinstance(names, Phrase) and "first" in names.gaps else names
 
 
 # -- what may be written --------------------------------------------------------------------------------------------

@@ -166,6 +166,10 @@ def test_what_is_refused_is_said_in_the_language_of_the_question(chinese: str, q
     ("at: found True; give a number for each driver", {"do": "show", "at": {"1": True}}),
     ("pull: found 'a'; name a point and a place", {"do": "pull", "point": "B", "x": "a", "y": 0}),
     ("changes: found 7; give values by key", {"do": "change", "changes": 7}),
+    ("angle: found 'x'; give degrees", {"do": "build", "step": {"what": "slider", "point": [1, 2], "angle": "x"}}),
+    ("speed: found inf; give a finite number below 1e9",
+     {"do": "build", "text": SIXBAR + "[sketch]\nB = [1, 2]",
+      "step": {"what": "drive", "link": "1", "speed": float("inf")}}),
     ("piece: found []; say what to build", {"do": "build", "step": []}),
     ("complete: found None; give line and column", {"do": "complete", "line": 3}),
     ("variants: found 61; give a number from 1 to 60", {"do": "export", "kind": "variants", "count": 61}),
@@ -202,6 +206,45 @@ def test_a_position_is_kept_in_the_file_with_its_assembly() -> None:
     kept = graphkin.solve(tomllib.loads(text)).motion
     there = graphkin.solve("sixbar-420rpm", at=200).motion
     assert pytest.approx(complex(there.position("F")[0])) == complex(kept.position("F")[0])
+
+
+LAW = library_text("fourbar-150-500-300-400").partition("[driver]")[0] + """[driver]
+link = "1"
+law  = { from = 20, pieces = [{ to = 0.5, rise = 90, by = "345" }, { to = 1, fall = 90, by = "harmonic" }] }
+time = 0.75
+"""
+DEAD = library_text("sixbar-AE70").partition("[driver]")[0] + """[driver]
+link  = "1"
+from  = "dead point"
+angle = 8
+omega = 10
+near  = -60
+"""
+
+
+@pytest.mark.parametrize(("text", "at"), [
+    (LAW, None), (LAW, {"1": 70.0}), (DEAD, {"1": 12.0}), (library_text("geared-five-bar"), {"1": 140.0}),
+])  # fmt: skip
+def test_a_position_is_kept_with_the_moment_of_its_law_and_where_wheels_begin_to_roll(text: str, at: dict) -> None:
+    kept = answer(Shelf(), {"do": "keep", "text": text, "at": at})
+    asked, found = graphkin.solve(tomllib.loads(text), at=at), graphkin.solve(tomllib.loads(kept["text"]))
+    for point in "BC":
+        for value in ("position", "velocity"):
+            there, here = (complex(getattr(each.motion, value)(point)[0]) for each in (asked, found))
+            assert pytest.approx(there, rel=1e-6) == here
+
+
+def test_a_driver_with_a_law_ranges_over_its_law() -> None:
+    found = answer(Shelf(), {"do": "show", "text": LAW, "figures": []})["range"]
+    assert (20.0, 110.0, False, "its law goes from 20° to 110°") == (*map(found.get, ("low", "high", "turns", "why")),)
+
+
+@pytest.mark.parametrize("question", [{"do": "export", "kind": "svg"}, {"do": "pull", "point": "C", "x": 1, "y": 1}])
+def test_a_position_that_is_not_reached_is_told_at_the_line_of_its_driver(question: dict) -> None:
+    text = library_text("sixbar-AE70")
+    found = answer(Shelf(), {"text": text, "at": {"1": 100.0}, **question})
+    assert [text.splitlines().index("[driver]") + 1] == [problem["line"] for problem in found["problems"]]
+    assert "driver 1 at 100°: not assembled" in found["problems"][0]["text"]
 
 
 def built(*steps: dict) -> str:

@@ -27,21 +27,21 @@ def url(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def tab(browser, url):
-    one = browser.new_page()
+    one = browser.new_context().new_page()
     one.said, one.asked = [], []
     one.on("console", lambda message: one.said.append(message.text))
     one.on("pageerror", lambda error: one.said.append(str(error)))
     one.on("request", lambda request: one.asked.append(request.url))
     one.goto(url)
     yield one
-    one.close()
+    one.context.close()
 
 
 @pytest.fixture
 def page(tab, url):
     """The page loaded anew, with nothing kept from before."""
     tab.set_viewport_size({"width": 1400, "height": 1000})
-    tab.evaluate("localStorage.clear()")
+    tab.evaluate("[localStorage, sessionStorage].forEach(store => store.clear())")
     tab.said.clear()
     tab.asked.clear()
     tab.goto(url)
@@ -255,15 +255,32 @@ def test_a_four_bar_is_built_by_keys_alone(page) -> None:
     assert {"1": ["A", "C"], "2": ["C", "D"], "3": ["B", "D"]} == {name: link["points"] for name, link in links.items()}
 
 
-def test_nothing_is_lost_when_the_page_is_loaded_again(page) -> None:
-    open_scene(page)
+def type_at_the_top(page, words: str) -> None:
     page.click(".cm-content")
     page.keyboard.press("Control+Home")
-    page.keyboard.type("# mine\n")
+    page.keyboard.type(words)
+
+
+def test_nothing_is_lost_when_the_page_is_loaded_again_beside_another_tab(page, url) -> None:
+    open_scene(page)
+    type_at_the_top(page, "# mine\n")
     page.wait_for_timeout(300)
+    other = page.context.new_page()
+    other.goto(url)
+    until(other, "document.getElementById('board').board?.editor.text.startsWith('# mine')")
+    type_at_the_top(other, "# other\n")
+    other.close()
     page.reload()
     page.wait_for_selector("[data-figure=velocity] svg")
     assert text_of(page).startswith("# mine\n")
+
+
+def test_tab_leaves_the_text_as_it_is(page) -> None:
+    open_scene(page)
+    page.click(".cm-content")
+    page.keyboard.press("Tab")
+    assert not page.evaluate("document.querySelector('.cm-content').contains(document.activeElement)")
+    assert library_text("sixbar-420rpm") == text_of(page)
 
 
 @pytest.mark.parametrize("width", [360, 1024, 1920])
@@ -284,6 +301,20 @@ def test_the_driver_turns_by_slider_number_and_playing(page) -> None:
     agrees(page)
 
 
+def test_a_slider_brought_back_to_where_it_was_taken_leaves_the_whole_figures(page) -> None:
+    open_scene(page)
+    page.wait_for_selector("[data-point=B]")
+    box = page.locator("[data-driver]").bounding_box()
+    at = page.evaluate("Number(document.querySelector('[data-driver]').value)") / 360
+    spots = [(box["x"] + box["width"] * share, box["y"] + box["height"] / 2) for share in (at, at + 0.2, at + 0.1, at)]
+    pull(page, spots[0], spots[1], let_go=False)
+    until(page, "!document.querySelector('[data-point=B]')")  # drawn in motion
+    for spot in spots[2:]:
+        page.mouse.move(*spot)
+    page.mouse.up()
+    page.wait_for_selector("[data-point=B]")
+
+
 def test_a_crank_that_turns_clockwise_is_played_clockwise(page) -> None:
     open_scene(page, "clockwise.toml")
     page.click("button:has-text('Play')")
@@ -300,7 +331,8 @@ def test_what_is_wrong_is_said_in_chinese_on_a_chinese_page(page) -> None:
     page.click(".cm-line:has-text('length = 0.34')")
     page.keyboard.press("End")
     page.keyboard.type("-")
-    page.wait_for_selector(".problems li:has-text('第 20 行：')")
+    told = page.wait_for_selector(".problems li:has-text('第 20 行：')")
+    assert 1 == told.inner_text().count("第 20 行")
     for _ in "0.34-":
         page.keyboard.press("Backspace")
     page.keyboard.type("-3")
@@ -314,6 +346,26 @@ def test_the_page_speaks_chinese_and_keeps_the_scene(page) -> None:
     page.wait_for_selector("[data-figure=velocity] svg")
     assert library_text("sixbar-420rpm") == text_of(page)
     assert "zh" == page.evaluate("document.documentElement.lang")
+
+
+def test_what_is_written_in_another_language_of_the_page_is_saved(page) -> None:
+    open_scene(page, "clockwise.toml")
+    type_at_the_top(page, "# one\n")
+    page.select_option("select >> nth=0", "zh")
+    page.wait_for_selector("button:has-text('撤销')")
+    type_at_the_top(page, "# two\n")
+    page.once("dialog", lambda asked: asked.accept())
+    page.keyboard.press("Control+s")
+    page.wait_for_selector("header button:has-text('保存'):disabled")
+    assert [] == page.query_selector_all(".problems li")
+
+
+def test_a_new_scene_stays_when_the_page_speaks_another_language(page) -> None:
+    page.click("[data-new=four-bar]")
+    new = until(page, "document.getElementById('board').board.editor.text")
+    page.select_option("select >> nth=0", "zh")
+    page.wait_for_selector("button:has-text('撤销')")
+    assert new == until(page, "document.getElementById('board').board.editor.text")
 
 
 def test_the_page_begins_in_the_language_that_the_command_asks_for(browser, tmp_path) -> None:

@@ -9,9 +9,10 @@ import { newestOnly, overSockets, overWidget } from "./talk.js";
 const FIRST = ["mechanism", "velocity", "acceleration"];
 const STORE = "graphkin-board";
 
-/** Puts the board into `root`.  `send(question, long)` asks Python; `kept` remembers the work over a reload. */
-export async function mount(root, send, { kept = null, nonce = "", wrote = () => {} } = {}) {
-  const before = kept?.read() ?? {};
+/** Puts the board into `root`.  `send(question, long)` asks Python; `kept` remembers the work, by itself as long as the
+    page lives. */
+export async function mount(root, send, { kept = memory(), nonce = "", wrote = () => {} } = {}) {
+  const before = kept.read();
   const state = {
     name: "", text: "", mark: "", own: false, at: null, language: before.language ?? (root.dataset.language || navigator.language.slice(0, 2)),
     convention: before.convention ?? "", instrument: "exact", figures: before.figures ?? FIRST, find: "", playing: false, step: null,
@@ -49,7 +50,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
     problems([]);
     if (about.drives || about.moving || state.at) state.at = told.at;
     figures.show(told, state.figures, about.moving);
-    drive.show(told);
+    drive.show(told, more);
     limit.textContent = told.limit ?? "";
     if (about.moving) {
       form.follow(told.changes);
@@ -85,9 +86,13 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
     return { points: spots, fixed: Object.keys(made.frame?.points ?? {}), links, guides };
   };
 
+  const atLine = ({ line, text }) => {
+    const place = word("line").replace("{line}", line);
+    return text.startsWith(place) ? text : place + text;
+  };
   const problems = (found) => {
     editor.problems(found);
-    list.replaceChildren(...found.map((one) => h("li", {}, one.line ? button(word("line").replace("{line}", one.line) + one.text, () => { tab("text"); editor.goTo(one.line); }) : one.text)));
+    list.replaceChildren(...found.map((one) => h("li", {}, one.line ? button(atLine(one), () => { tab("text"); editor.goTo(one.line); }) : one.text)));
     if (found.length) {
       verdict.textContent = word("stays");
       verdict.className = "differs";
@@ -103,7 +108,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
     if (outside) return;
     rest(150);
   };
-  const keep = () => kept?.write({ text: state.text, name: state.name, mark: state.mark, own: state.own, language: state.language,
+  const keep = () => kept.write({ text: state.text, name: state.name, mark: state.mark, own: state.own, language: state.language,
     convention: state.convention, figures: state.figures, at: state.at, dirty: state.dirty });
   const edit = async (question) => {
     const told = await ask({ ...question, ...wishes(), ...question });
@@ -175,8 +180,8 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
   const value = h("input", { type: "number", step: "any", "aria-label": word("driver value") });
   const playButton = button(word("play"), () => play(), { "aria-pressed": "false" });
   const drive = {
-    key: "", low: 0, high: 360, turns: true, sense: 1,
-    show(told) {
+    key: "", low: 0, high: 360, turns: true, sense: 1, held: false,
+    show(told, more) {
       if (told.drivers) {
         [[this.key, this.sense]] = told.drivers.map((one) => [one.key, one.sense]);
         Object.assign(this, { low: told.range.low ?? 0, high: told.range.high ?? 360, turns: told.range.turns });
@@ -185,20 +190,30 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
         slider.title = told.range.why ?? "";
       }
       const now = told.at[this.key];
-      if (now === undefined) return;
-      slider.value = this.turns ? ((now % 360) + 360) % 360 : now;
-      if (document.activeElement !== value) value.value = Number(now.toPrecision(7));
+      if (now === undefined || more) return;
+      if (!this.held) slider.value = this.turns ? ((now % 360) + 360) % 360 : now;
+      const rounded = Math.abs(now) < 1e-9 * (this.high - this.low) ? 0 : Number(now.toPrecision(7));
+      if (document.activeElement !== value) value.value = rounded;
     },
     to(now, quick) {
-      if (!Number.isFinite(now)) return;
+      if (!Number.isFinite(now) || !last) return;
       state.at = { ...(state.at ?? last?.at ?? {}), [this.key]: now };
       asked({ do: "show", ...wishes(), quick, scales: quick ? last?.scales : null }, { text: state.text, moving: quick, drives: true });
     },
   };
-  slider.addEventListener("input", () => drive.to(Number(slider.value), true));
-  slider.addEventListener("change", () => drive.to(Number(slider.value), false));
+  slider.addEventListener("input", () => {
+    drive.held = true;
+    drive.to(Number(slider.value), true);
+  });
+  const letGo = () => {
+    if (drive.held) drive.to(Number(slider.value), false);
+    drive.held = false;
+  };
+  // a slider that comes back to where it was taken changes nothing for the browser
+  for (const end of ["change", "pointerup", "pointercancel"]) slider.addEventListener(end, letGo);
   value.addEventListener("change", () => drive.to(Number(value.value), false));
   const play = () => {
+    if (!last) return undefined;
     state.playing = !state.playing;
     playButton.setAttribute("aria-pressed", state.playing);
     playButton.textContent = word(state.playing ? "stop" : "play");
@@ -219,7 +234,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
     };
     requestAnimationFrame(tick);
   };
-  root.addEventListener("keydown", (event) => {
+  root.onkeydown = (event) => { // in another language the page is mounted anew: each key is heard once
     if (event.key === " " && (event.target === document.body || event.target === slider)) {
       event.preventDefault();
       play();
@@ -228,7 +243,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
       event.preventDefault();
       save();
     }
-  });
+  };
   const driveBar = h("div.drive", {}, h("label", {}, word("driver")), slider, value, playButton,
     button(word("own position"), () => { state.at = null; show(); }), button(word("keep position"), () => edit({ do: "keep" })), freedom, verdict);
 
@@ -276,6 +291,8 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
 
   // -- scenes, saving, handing out ----------------------------------------------------------------------------------
   const take = (told, put = editor.open) => {
+    if (state.playing) play();
+    last = null;
     Object.assign(state, { name: told.name, mark: told.mark, own: told.own, at: null, step: null, dirty: false });
     fileName.textContent = told.name + (told.own ? "" : told.name ? ` (${word("comes along")})` : "");
     put(told.text);
@@ -302,7 +319,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
   const wall = dialog(word("choose scene"), async (close) => {
     const told = await ask({ do: "shelf" });
     const pick = (question) => { close(); opened(question); };
-    const link = h("input", { type: "text", placeholder: "graphkin:...", "aria-label": word("link") });
+    const link = h("input", { type: "text", placeholder: "graphkin:...", "aria-label": word("scene link") });
     const cards = told.scenes.map((one) => {
       const picture = h("div.picture", { "aria-hidden": "true" });
       const card = h("button", { type: "button", "data-scene": one.name, onclick: () => pick({ name: one.name }) }, picture, h("span", {}, one.name));
@@ -323,7 +340,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
     return [
       h("div.row", {}, h("span", {}, word("new")), button(word("empty"), () => { pick({ new: "empty" }); tab("build"); }, { "data-new": "empty" }),
         ...told.new.map((kind) => button(kind, () => pick({ new: kind }), { "data-new": kind }))),
-      h("div.row", {}, h("label", {}, word("link")), link, button(word("open"), () => pick({ link: link.value }))),
+      h("div.row", {}, h("label", {}, word("scene link")), link, button(word("open"), () => pick({ link: link.value }))),
       h("div.wall", {}, ...cards),
     ];
   });
@@ -349,7 +366,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
     const figure = h("select", { "aria-label": word("figure") }, ...names.figures.map((one) => h("option", { value: one, selected: one === "sheet" }, word(`figure ${one}`))));
     const count = h("input", { type: "number", min: 1, max: 60, value: 5, "aria-label": word("variants") });
     const line = h("p", { role: "status" });
-    const carried = h("textarea", { readOnly: true, "aria-label": word("link") });
+    const carried = h("textarea", { readOnly: true, "aria-label": word("scene link") });
     const send = async (question) => {
       line.textContent = word("working");
       const told = await ask({ ...wishes(), do: "export", ...question }, true);
@@ -366,6 +383,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
   });
 
   const speak = async (language) => {
+    state.playing = false;
     state.language = language;
     keep();
     root.replaceChildren();
@@ -402,7 +420,7 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
   document.documentElement.lang = state.language;
   root.append(header, h("main", {}, left, right));
   tab("text");
-  if (before.text?.trim() && before.dirty) {
+  if (before.text?.trim() && (before.dirty || !before.name)) {
     Object.assign(state, { name: before.name, mark: before.mark, own: before.own, at: before.at });
     fileName.textContent = before.name;
     editor.open(before.text);
@@ -425,20 +443,25 @@ export async function mount(root, send, { kept = null, nonce = "", wrote = () =>
   }).observe(area);
 }
 
-/** What a page remembers of its work, by its address. */
+function memory() {
+  let kept = {};
+  return { read: () => kept, write: (value) => { kept = value; } };
+}
+
+/** What a page remembers of its work, by its address: each tab of its own, a new tab of the last. */
 function storage() {
   const key = `${STORE}:${location.pathname}`;
   return {
     read: () => {
       try {
-        return JSON.parse(localStorage.getItem(key)) ?? {};
+        return JSON.parse(sessionStorage.getItem(key) ?? localStorage.getItem(key)) ?? {};
       } catch {
         return {};
       }
     },
     write: (value) => {
       try {
-        localStorage.setItem(key, JSON.stringify(value));
+        for (const store of [sessionStorage, localStorage]) store.setItem(key, JSON.stringify(value));
       } catch { /* a full or forbidden store: the text is on the page all the same */ }
     },
   };

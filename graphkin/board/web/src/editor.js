@@ -1,6 +1,6 @@
 // The text of the scene: colours, completion, sentences at their lines, undo without end.
 import { autocompletion, completionKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab, isolateHistory, redo, undo } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, isolateHistory, redo, undo } from "@codemirror/commands";
 import { HighlightStyle, StreamLanguage, bracketMatching, syntaxHighlighting } from "@codemirror/language";
 import { toml } from "@codemirror/legacy-modes/mode/toml";
 import { lintGutter, setDiagnostics } from "@codemirror/lint";
@@ -35,7 +35,7 @@ export function textEditor(parent, { changed, complete, nonce, label }) {
     StreamLanguage.define(toml),
     syntaxHighlighting(colours),
     autocompletion({ override: [options] }),
-    keymap.of([...completionKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
+    keymap.of([...completionKeymap, ...historyKeymap, ...defaultKeymap]),
     EditorView.lineWrapping,
     EditorView.contentAttributes.of({ "aria-label": label }),
     nonce ? EditorView.cspNonce.of(nonce) : [],
