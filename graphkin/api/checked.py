@@ -22,13 +22,14 @@ from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.readings import report_on
 from graphkin.checking.report import Compared, ReadValue, Report, reading_row, without_residues
 from graphkin.construction import EXACT, Instrument, Plan, Sheet, execute, plan, plan_with_forces
+from graphkin.errors import Problem, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol, asked_here
 from graphkin.structure import part_of
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import Phrase, say
+from graphkin.words import Phrase, listed, say
 
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres
@@ -227,7 +228,20 @@ def check(
     structure = solver.structure_of(given)
     motion = solver.solved_here(structure, values, here)
     planned = plan_with_forces(structure, values, here, by_name)
-    return with_elsewhere(checked(planned, motion, hand), asked, seed)
+    return with_elsewhere(settled(checked(planned, motion, hand)), asked, seed)
+
+
+def settled(made: Checked) -> Checked:
+    """A check that settles something.  Raises Unsolvable: so near a dead point that nothing can be judged."""
+    if not made.report.settles_nothing:
+        return made
+    scene = made.sheet.scene
+    values = made.sheet.drivers
+    drivers = [Phrase("driver at value", driver=d.key, value=scene.unit_of(d).said(values.get(d.key, d.values[0])))
+               for d in scene.drivers]  # fmt: skip
+    raise Unsolvable("dead point", Problem(Phrase("driver of driver", driver=listed(drivers)),
+                                           "so near a dead point nothing is determined",
+                                           "move the driver off this position"))  # fmt: skip
 
 
 def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:

@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
     unknown_words,
 )
 from graphkin.api.cams import cam_made, cam_table
-from graphkin.api.checked import Checked, checked, with_elsewhere
+from graphkin.api.checked import Checked, checked, settled, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import report_on
@@ -312,7 +312,7 @@ def draw(
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, asked_here(asked))
     planned = plan_with_forces(structure, values, asked_here(asked), asked_symbols(given, find))
-    whole = with_elsewhere(checked(planned, motion, hand), asked, seed)
+    whole = with_elsewhere(settled(checked(planned, motion, hand)), asked, seed)
     by_name = figures is not None
     drawn = Drawn(whole, planned, motion, wanted, seed, language, convention, driver, places, by_name)
     return drawn.saved(out, formats)

@@ -152,6 +152,11 @@ class Report:
         raise Disagreement(*problems)
 
     @property
+    def settles_nothing(self) -> bool:
+        """Whether no reading is wrong, and none of what is found is determined."""
+        return not self.ok and all(row.ok is not False for row in self.rows)
+
+    @property
     def undetermined(self) -> tuple[Symbol, ...]:
         """Readings that are not determined at this position."""
         return tuple(row.symbol for row in self.rows if row.ok is None)

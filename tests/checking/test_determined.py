@@ -9,12 +9,14 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.checking.readings import read_off
+from graphkin.checking.readings import read_off, report_on
 from graphkin.checking.report import Uncertainty, compare
 from graphkin.construction import draft
+from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure
+from graphkin.solver import solve
 from graphkin.solver.values import Lost
 from graphkin.words import Phrase
 
@@ -160,12 +162,27 @@ BY_ITS_PISTON = {
 
 
 def test_what_the_driver_gives_is_determined_where_rounding_loses_the_group_behind_it() -> None:
-    checked = graphkin.check(BY_ITS_PISTON)
-    rows = {str(row.symbol): row for row in checked.report.rows}
+    scene = mechanism_of(BY_ITS_PISTON)
+    report = report_on(draft(scene), solve(scene))
+    rows = {str(row.symbol): row for row in report.rows}
     assert ["v_C", "omega_3", "a_C", "alpha_3"] == [name for name, row in rows.items() if row.ok]
     assert (0.1, 0.05) == (pytest.approx(rows["v_C"].measured), pytest.approx(rows["a_C"].true))
-    assert {"v_B", "omega_1", "alpha_2"} <= {str(symbol) for symbol in checked.report.undetermined}
-    assert not checked.ok  # nothing that was found is judged
+    assert {"v_B", "omega_1", "alpha_2"} <= {str(symbol) for symbol in report.undetermined}
+    assert report.settles_nothing  # nothing that was found is judged
+
+
+@pytest.mark.parametrize(
+    ("scene", "at"),
+    [("elliptic-trammel", 199.9999999999), ("sixbar-AE70", 58.997280866), ("hydraulic-cylinder", 39.4448724537),
+     (BY_ITS_PISTON, None)],
+)  # fmt: skip
+def test_beside_a_dead_point_that_leaves_nothing_to_judge_a_check_names_it_and_is_not_called_wrong(
+    scene: str | dict[str, Any], at: float | None
+) -> None:
+    # the drawing of what a cylinder drives said that the motion does not reach it
+    with pytest.raises(Unsolvable, match="so near a dead point that the drawing determines nothing") as stop:
+        graphkin.check(scene, at=at)
+    assert "dead point" == stop.value.status
 
 
 def loops_beside_a_dead_point(angle: float) -> dict[str, Any]:

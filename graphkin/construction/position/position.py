@@ -300,7 +300,7 @@ def moved_to(
             return found_near(placed, at(part), guess, there, there)
 
         # nothing says yet where the links go: the first step is small
-        steps = walk(near, poses, 0.0, 1.0, longest, longest / 1e10, SURPRISE, longest / 64)
+        steps = walk(near, poses, 0.0, 1.0, longest, longest / 1e13, SURPRISE, longest / 64)
         part, reached = [(0.0, poses), *steps][-1]
         if part == 1.0:
             return dict(reached)
