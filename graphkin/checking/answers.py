@@ -21,6 +21,7 @@ AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
 
 _QUANTITY = re.compile(rf"({'|'.join(KINDS)})_")
 _WAY = re.compile(r"direction|sense|angle|dir\b|arg|方向|转向|角度|指向|∠", re.IGNORECASE)
+_DECIMAL_COMMA = re.compile(r"[^.,]*\d,\d[^.,]*$")  # in a number that can be read in one way alone
 _OTHER_COLUMNS: Mapping[Role, set[str]] = {
     "at": {"at", "position", "driver", "位置", "position no", "φ1", "phi_1"},
     "variant": {"variant", "version", "variante", "变式", "题号", "题目编号", "试题", "no. of problem"},
@@ -151,12 +152,19 @@ def _answers(
                 problems.append(Problem(Phrase("line at", name=name, line=line), "is no driver value", text=text[:40]))
         person = told.get("person", "") or ("" if at is not None else str(Phrase("line", line=line)))
         marks = {part: mark for part in ("equations", "drawing") if (mark := _mark(told.get(part, ""))) is not None}
-        made: dict[Symbol, Cell] = {}
-        for i, (symbol, unit) in values.items():
-            if sheet.heads[i] not in silent.get(line, ()):
-                own = [(k, cells[k]) for k, of in ways.items() if of == symbol and cells[k]]
-                told_ways = [way for k, way in own if k in by_signs or not is_blank(way)]
-                made[symbol] = _cell(scene, symbol, unit, cells[i], told_ways, sheet.sign)
+        def read(sign: str, cells: Sequence[str] = cells, line: int = line) -> dict[Symbol, Cell]:
+            made: dict[Symbol, Cell] = {}
+            for i, (symbol, unit) in values.items():
+                if sheet.heads[i] not in silent.get(line, ()):
+                    own = [(k, cells[k]) for k, of in ways.items() if of == symbol and cells[k]]
+                    told_ways = [way for k, way in own if k in by_signs or not is_blank(way)]
+                    made[symbol] = _cell(scene, symbol, unit, cells[i], told_ways, sign)
+            return made
+
+        made = read(sheet.sign)
+        texts = {symbol: cells[i] for i, (symbol, _) in values.items()}
+        if any(_DECIMAL_COMMA.match(texts[s]) for s, c in made.items() if isinstance(c, Printed) and len(c.texts) == 1):
+            made = read(";")  # who writes 1075,8 means a decimal by 2,819 too
         answers.append(Answers(person, at, made, variant=told.get("variant", ""), id=told.get("id", ""), marks=marks))
     if problems:
         raise CallError(*problems[:50])

@@ -26,6 +26,7 @@ from graphkin.checking.slip_likelihood import (
     Suspect,
     Suspects,
     Verdict,
+    clearest,
     comparable,
     transcription_errors,
 )
@@ -41,6 +42,8 @@ SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a 
 DIGITS = 5  # fewer digits than this tell no slip from an error of drafting
 FAR, FEW_DIGITS = 0.1, 3  # but so far off, to this many digits, they do
 COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
+COPIED = 1e-3  # of itself: so near lies a value that is copied from another problem of a set
+INPUTS = 1e-3  # of itself: what lies nearer shows coarser inputs, no slip of the pen and no other row
 LEAST_TURN = math.radians(1.5)  # directions are read off with a protractor
 TELLING = 4  # digits from which a number can be told to be another
 MOST_PREDICTED = 72  # positions of a table that are drawn, to see what a pencil keeps within; in others the nearest
@@ -139,20 +142,31 @@ def explained(
     symbol = judged.printed.symbol
     judged = replace(judged, line=case.held(symbol).line)
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
-    others = [s for s in wrong if s != symbol and case.before(s, symbol)]
-    suspects = [*_weighed(case, judged), *(_following(case, judged, own, others, chance) if others else ())]
-    best, deviation = max((one for one in suspects if one[1] > chance), key=lambda w: w[1], default=None), None
+    others = [s for s in wrong if s != symbol]
+    follows = _following(case, judged, own, others, chance) if not _copied(case, own, symbol, others) else ()
+    suspects = [*_weighed(case, judged), *follows]
+    best, deviation = clearest(suspects, chance), None
     if best is None and drawn:
         every = Suspects((*case.suspects(symbol).all, *(s for s, _ in suspects if s.follows_from)))
         best = judged.drawn_badly(every)
         if best is not None:
-            meant = comparable(judged.printed, best[0].value, judged.line)
+            meant = comparable(judged.printed, best.value, judged.line)
             deviation = abs(judged.printed.value - meant) / abs(meant)
     if best is None:
         return judged
-    verdict: Verdict = "right from own values" if best[0].follows_from else "wrong"
-    return replace(judged, verdict=verdict, looks_like=best[0].phrase, follows_from=best[0].follows_from,
-                   apart=deviation)  # fmt: skip
+    verdict: Verdict = "right from own values" if best.follows_from else "wrong"
+    return replace(judged, verdict=verdict, looks_like=best.phrase, follows_from=best.follows_from, apart=deviation)
+
+
+def _copied(case: Evidence, own: Mapping[Symbol, Value], symbol: Symbol, others: Iterable[Symbol]) -> bool:
+    """Whether a value and another wrong one are the answers to the same other problem of a set."""
+
+    def problems(of: Symbol) -> set[str]:
+        size = abs(own[of])
+        return {name for name, value in case.variants(of) if abs(abs(value) - size) <= COPIED * size}
+
+    there = problems(symbol)
+    return any(there & problems(other) for other in others)
 
 
 def _following(
@@ -161,17 +175,23 @@ def _following(
     """The explanations of a value by earlier wrong values, from which the drawing was continued: from each that moves
     it by more than drafting errors do."""
     symbol = judged.printed.symbol
+    earlier = [s for s in others if case.before(s, symbol)]
 
     def moved(value: Value) -> bool:
         return abs(comparable(judged.printed, value, judged.line) - judged.exact) > judged.bound / 3
 
-    for value in filter(moved, case.following(own, symbol)):
-        follows = Suspects((Suspect(Phrase("slip follows"), value, 0.5),))
-        for suspect, weight in judged.weighed(follows):
+    def causes() -> Iterator[tuple[Value, tuple[Symbol, ...]]]:
+        for value in filter(moved, case.following(own, symbol) if earlier else ()):
+            yield value, tuple(s for s in earlier if any(map(moved, case.following({s: own[s]}, symbol))))
+        by_rates = case.by_rates(own, symbol)
+        if by_rates is not None and not isinstance(judged.printed.value, complex) and moved(by_rates[0]):
+            yield by_rates[0], tuple(s for s in by_rates[1] if s in others)
+
+    for value, names in causes():
+        follows = Suspect(Phrase("slip follows", name=listed([*map(str, names)])), value, 0.5, follows_from=names)
+        for suspect, weight in judged.weighed(Suspects((follows,))) if names else ():
             if weight > chance:
-                names = tuple(s for s in others if any(map(moved, case.following({s: own[s]}, symbol))))
-                phrase = Phrase("slip follows", name=listed([*map(str, names)]))
-                yield from [(replace(suspect, phrase=phrase, follows_from=names), weight)] if names else ()
+                yield suspect, weight
 
 
 # -- tables, by their digits -------------------------------------------------------------------------------------------
@@ -219,7 +239,12 @@ def judge_table(
 
 
 def _unexplained(judged: Judged) -> bool:
-    return judged.verdict == "wrong" and not judged.looks_like
+    return judged.verdict == "wrong" and not judged.looks_like and not _by_inputs(judged)
+
+
+def _by_inputs(judged: Judged) -> bool:
+    """Whether inputs that were rounded explain a wrong value."""
+    return abs(judged.off) <= INPUTS * abs(judged.exact)
 
 
 def _looked_into(case: Evidence, judged: Sequence[Judged], by: str) -> list[Judged]:
@@ -344,7 +369,7 @@ def _explained_by_digits(
     symbols, names : of the columns and rows of the table
     """
     printed, right = judged.printed, judged.exact
-    if printed.digits < TELLING or isinstance(printed.value, complex):
+    if printed.digits < TELLING or isinstance(printed.value, complex) or _by_inputs(judged):
         return judged
 
     def ways() -> Iterator[tuple[Phrase, Value]]:

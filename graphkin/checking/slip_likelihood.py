@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
 from typing import Literal
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from graphkin.scene.symbol import Printed, Symbol, Value, stated
 from graphkin.scene.tables import Units
-from graphkin.words import Phrase
+from graphkin.words import Phrase, joined
 
 Reals = NDArray[np.float64]
 Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
@@ -26,7 +26,9 @@ CHANCE = 0.15  # a wrong value lies anywhere, within its own size
 BAD = 3.0  # bounds of drafting: so far off a drawn value may lie that still shows what it was meant for
 CLUMSY = 0.08  # part of it, for a drawing that is worse than it should be
 NEAT = 0.01  # part of it within which most drawings lie
-SURE = 3.0  # so much commoner must a slip be than chance, where only its neighbourhood fits
+SURE = 6.0  # so much commoner must a slip be than chance, where only its neighbourhood fits
+CLEARLY = 3.0 * (1 - 1e-9)  # so much likelier must a named slip be than chance, and than every other
+MOST_EQUAL = 3  # slips that fit equally; more of them explain nothing
 NEVER = 1e-4  # so near a value was meant right, whatever else lies there
 COMPUTED = 1e-5  # relative error of values worked out with rounded ones
 TAILS = 8.0  # deviations beyond which nothing is drawn
@@ -166,8 +168,9 @@ class Judged:
         if weight:
             yield Suspect(Phrase("slip pen", name=text), self.exact, share, copied=True), weight
 
-    def drawn_badly(self, suspects: Suspects) -> tuple[Suspect, float] | None:
-        """A slip in a drawing of larger errors: the likeliest of the slips that are much more probable than chance."""
+    def drawn_badly(self, suspects: Suspects) -> Suspect | None:
+        """A slip in a drawing of larger errors: of the slips that are much more probable than chance the clearly
+        likeliest."""
         if not self.printed.value or not suspects.all:
             return None
         values = suspects.comparable(self.printed, self.line)
@@ -184,8 +187,9 @@ class Judged:
             return None
         least = np.maximum(np.maximum(deviation, reach / 3), self.printed.step / 2)
         weights = np.where(near, suspects.shares / least, 0.0)
-        best = int(np.argmax(weights))
-        return suspects.all[best], float(weights[best])
+        best = suspects.all[int(np.argmax(weights))]
+        equal = np.flatnonzero(CLEARLY * weights > weights.max())
+        return best if all(suspects.all[k].phrase == best.phrase for k in equal) else None
 
     def shows(self, suspect: Suspect) -> bool:
         """Whether the stated value is that of an explanation to the digit."""
@@ -210,6 +214,20 @@ def likelihood(printed: Printed, deviation: float | Reals, spread: float | Reals
     with np.errstate(under="ignore", divide="ignore", invalid="ignore"):
         bell = 0.5 * np.exp(-0.5 * (deviation / wide) ** 2) / (wide * math.sqrt(math.tau))
         return np.where(deviation <= half, 0.25 / half, 0.0) + np.where(np.greater(spread, 0.0), bell, 0.0)
+
+
+def clearest(weighed: Iterable[tuple[Suspect, float]], chance: float) -> Suspect | None:
+    """The explanation that is clearly likelier than chance; of several that are not clearly less likely what follows
+    from own values, else the likeliest with the words of all; None where too many fit."""
+    ranked = sorted(weighed, key=lambda suspect: -suspect[1])
+    if not ranked or ranked[0][1] <= CLEARLY * chance:
+        return None
+    equal = [suspect for suspect, weight in ranked if CLEARLY * weight > ranked[0][1]]
+    best = next((suspect for suspect in equal if suspect.follows_from), equal[0])
+    phrases = dict.fromkeys(suspect.phrase for suspect in equal)
+    if best.follows_from or len(phrases) == 1:
+        return best
+    return replace(best, phrase=joined("one or other", phrases)) if len(phrases) <= MOST_EQUAL else None
 
 
 _DOUBLE_ZERO = re.compile(r"[+-]?0\d")  # nobody writes so

@@ -179,6 +179,23 @@ class Evidence:
                     values.append(added_up(spans, 0j) * scale)
         return tuple(values)
 
+    def by_rates(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[float, tuple[Symbol, ...]] | None:
+        """The size of the acceleration of a point about a fixed pivot (SI) by the person's own rates, and these; None
+        where they state no angular acceleration, or the tangential component from which it follows."""
+        scene, point = self.sheet.scene, of.of
+        if of.kind != "a" or point is None or of.to is not None:
+            return None
+        if any(s.kind == "at" and s.of is not None and s.of.point == point.point for s in own):
+            return None
+        for link in _links_of(scene, point):
+            rates = Symbol("omega", link=link.name), Symbol("alpha", link=link.name)
+            pivots = [z for name, z in link.points.items() if name in scene.frame.points]
+            if pivots and rates[1] in own:
+                omega, alpha = (float(own[s].real if s in own else self.exact(s).real) for s in rates)
+                arm = abs(link.points[point.point] - pivots[0])
+                return arm * math.hypot(omega**2, alpha), tuple(s for s in rates if s in own)
+        return None
+
     def before(self, one: Symbol, other: Symbol) -> bool:
         """Whether a quantity is known on the drawing before another, which can then follow from it."""
         return _step(self.sheet, one) < _step(self.sheet, other)
@@ -246,10 +263,6 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
         ):
             yield Suspect(phrase, value, 0.05, of_components=True)
     yield from _slipped(case.slipped, symbol, exact)
-    gravity = abs(case.plan.structure.scene.loading.gravity)
-    if gravity and symbol.kind in ("G", "Fi", "Mi"):
-        yield Suspect(Phrase("slip kg for N"), exact / gravity, 0.08)
-        yield Suspect(Phrase("slip N for kg"), exact * gravity, 0.08)
     if symbol.kind == "ak":
         yield Suspect(Phrase("slip coriolis factor", name=str(symbol)), exact / 2, 0.1)
     for altered in _slipped(case.altered, symbol, exact):
@@ -268,10 +281,14 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
 
 
 def _slipped(slips: Sequence[Slipped], symbol: Symbol, exact: Value) -> Iterator[Suspect]:
-    """The values of a symbol with each slip that changes it."""
+    """The values of a symbol with each slip that changes it; one made in more places to no effect is not told."""
+    told = list[tuple[str, Value]]()
     for phrase, share, values in slips:
         value = values(symbol)
-        if value is not None and abs(value - exact) > 1e-6 * abs(exact):
+        if value is None or abs(value - exact) <= 1e-6 * abs(exact):
+            continue
+        if not any(key == phrase.key and abs(value - other) <= 1e-6 * abs(value) for key, other in told):
+            told.append((phrase.key, value))
             yield Suspect(phrase, value, share)
 
 

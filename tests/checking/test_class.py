@@ -141,6 +141,18 @@ def test_newtons_are_not_north():
     assert (500.0, None) == (lambda p: (p.value, p.way.angle))(read_cell("500 N", Symbol.parse("F_1/2"), Units()))
 
 
+@pytest.mark.parametrize(
+    ("values", "read"),
+    [
+        ({"omega_3": "-2,819", "v_B@3": "1075,8 mm/s"}, [-2.819, 1075.8]),
+        ({"omega_3": "-2,819", "v_B@3": "1075.8"}, [None, 1075.8]),
+        ({"omega_3": "-2,819", "v_B@3": "1,075,800"}, [None, 1075800.0]),
+    ],
+)
+def test_a_comma_is_read_as_the_other_numbers_of_its_row_have_it(values, read):
+    assert read == [row["printed"] for row in graphkin.audit(SIXBAR, answers={"Ann": values}).data["values"]]
+
+
 def test_a_zero_component_is_zero_to_the_accuracy_of_the_other():
     mapping = {"A": {"v_D": [-0.7, 0.0]}}
     assert "wrong" == graphkin.audit(SIXBAR, answers=mapping).data["values"][0]["verdict"]
@@ -209,6 +221,16 @@ def test_one_table_serves_a_set_of_variants_and_whose_answer_it_is_is_told(tmp_p
     found = judged.data["values"]
     assert ["right", "wrong", "right"] == [v["verdict"] for v in found]
     assert "the answer of variant 02" == found[1]["looks_like"]
+
+
+def test_nothing_follows_from_ones_own_values_where_all_are_copied_from_another_problem(tmp_path):
+    # of a slower crank: v_D would follow from the copied omega_3
+    own = graphkin.read(SIXBAR).to_dict() | {"printed": {}}
+    slow = own | {"driver": own["driver"] | {"omega": -8}}
+    path = tmp_path / "class.csv"
+    path.write_text("name,variant,v_D,omega_3\nAnn,2,482.7,-2.819\n")
+    values = graphkin.audit(own, answers=path, variants={"1": own, "2": slow}).data["values"]
+    assert [("wrong", "the answer of variant 1")] * 2 == [(v["verdict"], v["looks_like"]) for v in values]
 
 
 def test_answers_of_variants_need_their_set(tmp_path):

@@ -314,8 +314,9 @@ def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhe
     """Exact values of the other problems of a set, by their names."""
     @cache
     def values(symbol: Symbol) -> tuple[tuple[str, Value], ...]:
-        others = [(name, scene) for name, scene in problems.items() if name and scene is not problems[own]]
-        return tuple((name, exact_values(solver.solve(scene), [symbol])[symbol]) for name, scene in others)
+        others = {id(scene): (name, scene) for name, scene in reversed([*problems.items()])  # "02" is "2" too
+                  if name and scene is not problems[own]}  # fmt: skip
+        return tuple((name, exact_values(solver.solve(scene), [symbol])[symbol]) for name, scene in others.values())
 
     return values
 
