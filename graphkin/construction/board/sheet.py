@@ -443,8 +443,7 @@ def either_way(symbol: Symbol) -> Symbol:
     """
     if symbol.kind != "v" or symbol.of is None or symbol.to is None:
         return symbol
-    of, to = sorted((symbol.of, symbol.to), key=str)
-    return replace(symbol, of=of, to=to)
+    return replace(symbol, of=symbol.to, to=symbol.of) if str(symbol.to) < str(symbol.of) else symbol
 
 
 # -- vectors that are nothing but rounding -----------------------------------------------------------------------------
