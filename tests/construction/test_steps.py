@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import fields, replace
 from typing import get_args, get_type_hints
@@ -132,6 +133,12 @@ def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name(
     gaps = ("points.1", "point", "radii.0", "points")
     assert ["D", "C", "12.50", "A, D"] == [str(step.gap(name)) for name in gaps]
     assert "an arc about A of 12.50 mm and one about D of 3.00 mm meet in C" == str(step.phrase)
+
+
+@pytest.mark.parametrize("base", ["", "3"])
+def test_an_angle_below_zero_is_laid_off_with_the_minus_of_print(base: str) -> None:
+    step = PlaceStep("lay off", "angle", link="6", point="G", value=math.radians(-30), base=base)
+    assert "at −30 degrees" in str(step.phrase)
 
 
 @pytest.mark.parametrize(("name", "sentence"), [

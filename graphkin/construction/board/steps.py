@@ -379,7 +379,7 @@ class PlaceStep(Step):
     @property
     def degrees(self) -> str:
         """The given angle as it is written (degrees)."""
-        return f"{math.degrees(self.value):.6g}"
+        return true_minus(f"{math.degrees(self.value):.6g}")
 
     @property
     def links_drawn(self) -> tuple[str, ...]:
@@ -491,7 +491,7 @@ class RateStep(Step):
     @property
     def amount(self) -> str:
         """The value as it is written: an angle in degrees, others in SI units."""
-        return f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}"
+        return true_minus(f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}")
 
     @property
     def unit(self) -> str:
@@ -716,7 +716,7 @@ class TrialPositions(Step):
         """The step as a phrase, without the letters of any school."""
         phrase = super().phrase
         for block, link, turned in self.instead:
-            angle = f"{math.degrees(turned) + 0.0:.6g}"
+            angle = true_minus(f"{math.degrees(turned) + 0.0:.6g}")
             phrase = Phrase("driven in its stead", told=phrase, block=block, link=link, angle=angle)
         return phrase
 
