@@ -25,7 +25,7 @@ from graphkin.papers.blocks import (
     said_each,
 )
 from graphkin.papers.courses import Placed, PlaceValues, Scheme, Student
-from graphkin.papers.documents import given, paper_title, results_table, scene_title, solution_blocks
+from graphkin.papers.documents import paper_title, results_table, scene_title, solution_blocks, task_with_source
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import Paper, paper_of
 from graphkin.papers.pictures import bare_picture, mechanism_picture
@@ -72,7 +72,7 @@ def course_report(
     language, driver = lesson.language, scheme.scene.unit_of(scheme.scene.drivers[0])
     driver_value = said("course place", language, value=driver.said(stands))
     task = Heading(said("course task", language), 2, fresh=True)
-    blocks: list[Block] = [*_cover(lesson, student, driver_value), task, *given(lesson)]
+    blocks: list[Block] = [*_cover(lesson, student, driver_value), task, *task_with_source(lesson)]
     if data:
         blocks.append(Together((Heading(said("course data", language)), *_data(data, student, language))))
     for name in ("structure", "positions"):

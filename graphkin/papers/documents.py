@@ -77,7 +77,7 @@ def problem(lesson: Lesson) -> Document:
     language, paper = lesson.language, paper_of(lesson.sheet.scene)
     bare = pictures.mechanism_picture(lesson)
     how = sentences(*(said(key, language) for key in ("solve here", "print true", "sense words")))
-    words = (*given(lesson), Paragraph(how, small=True))
+    words = (*task(lesson), Paragraph(how, small=True))
     moving = [d for d in pictures.POLYGONS if lesson.sheet.vectors[d]]
     shown = all(_space(lesson, bare, [d], paper) for d in moving)
     wide = not shown
@@ -205,8 +205,15 @@ def scene_title(lesson: Lesson) -> Said:
 # -- what is given -----------------------------------------------------------------------------------------------------
 
 
+def task(lesson: Lesson) -> Iterator[Paragraph]:
+    """The given data and the question."""
+    yield from given(lesson)
+    yield from _formulas(lesson, "find", [lesson.letters.vector(s) for s in lesson.questions], "symbol comma")
+    yield from reach(lesson)
+
+
 def given(lesson: Lesson) -> Iterator[Paragraph]:
-    """The given data in sentences: lengths, fixed points, guides, drivers; then the question, and the source."""
+    """The given data in sentences: lengths, fixed points, guides, drivers, loads."""
     scene, letters, language = lesson.sheet.scene, lesson.letters, lesson.language
     unit = scene.units.length
     lengths = [name + f" = {value}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
@@ -225,10 +232,13 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
         if load.key == "given balance" and scene.question.find:
             continue  # what is asked for stands below
         yield Paragraph(tuple((each, whole_sentence(rich_text(load, each), each)) for each in languages(language)))
-    yield from _formulas(lesson, "find", [letters.vector(s) for s in lesson.questions], "symbol comma")
-    yield from reach(lesson)
-    names = languages(language)
-    sources = {each: scene.question.source_in(each) for each in names}
+
+
+def task_with_source(lesson: Lesson) -> Iterator[Paragraph]:
+    """The task with its source, which may tell a result or the way to it: not for who is to solve it."""
+    yield from task(lesson)
+    language, names = lesson.language, languages(lesson.language)
+    sources = {each: lesson.sheet.scene.question.source_in(each) for each in names}
     if len(set(sources.values())) > 1:
         told = ((each, word("source", each) + word("colon", each) + text) for each, text in sources.items() if text)
         yield Paragraph(tuple(told), small=True)
@@ -458,7 +468,7 @@ def solution(lesson: Lesson, worked: Iterable[Block] | None = None) -> Document:
 
 def beginning(lesson: Lesson) -> tuple[Paragraph, ...]:
     """The given data, and a note on the numbers of the steps."""
-    return (*given(lesson), Paragraph(said("bracket words", lesson.language), small=True))
+    return (*task_with_source(lesson), Paragraph(said("bracket words", lesson.language), small=True))
 
 
 def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:

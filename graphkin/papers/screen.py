@@ -45,12 +45,12 @@ from graphkin.jobs import Progress
 from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
 from graphkin.papers.documents import (
     force_stages_of,
-    given,
     results_blocks,
     scene_title,
     solution,
     stage_title,
     step_items,
+    task_with_source,
     way,
 )
 from graphkin.papers.html import blocks_html, rendered, said_html, whole_page, words_html
@@ -115,7 +115,7 @@ def handout_page(
     body = rendered(
         "handout.html",
         title=scene_title(lesson),
-        given=Markup(blocks_html(given(lesson), first)),
+        given=Markup(blocks_html(task_with_source(lesson), first)),
         paper=Markup(blocks_html((Heading(scene_title(lesson), 2), *stages), first)),
         results=Markup(blocks_html(results_blocks(lesson), first)),
         hint=hint,
@@ -221,7 +221,7 @@ def _position(
         "figures": [*figures, *cams],
         "stages": [],
         "results": blocks_html(results_blocks(lesson), first) if lesson.report.rows else "",
-        "given": blocks_html(given(lesson), first),
+        "given": blocks_html(task_with_source(lesson), first),
         "steps": steps,
     }, stages
 

@@ -196,8 +196,11 @@ def test_without_scripts_the_worked_solution_stands_there(browser, file):
 
 
 def test_nothing_runs_off_a_narrow_screen(page):
-    page.set_viewport_size({"width": 380, "height": 800})
-    assert 380 >= page.evaluate("document.documentElement.scrollWidth")
+    page.set_viewport_size({"width": 360, "height": 800})
+    assert 360 >= page.evaluate("document.documentElement.scrollWidth")
+    ends = "[...document.querySelectorAll('.controls button')].map((one) => one.getBoundingClientRect().right)"
+    assert 360 >= max(page.evaluate(ends))
+    assert page.get_by_role("button", name="Next equation").is_visible()
 
 
 def test_the_space_bar_plays_polygons_centres_and_traces_together(page):

@@ -229,14 +229,17 @@ def test_what_nothing_asked_for_needs_is_left_out_and_every_paper_says_so():
         assert "nothing asked for needs it: links 5, 6" in _words(paper(lesson))
 
 
-def test_the_source_is_said_in_the_language_of_the_paper():
+def test_the_source_stands_where_the_solution_does_in_the_language_of_the_paper():
     scene = {**written("slider-crank-offset")[0], "source": "a book", "source_zh": "课程设计指导书"}
     pages = {
-        each: graphkin.handout(scene, language=each, formats=("html",), positions=1).files["problem.html"].decode()
+        each: graphkin.handout(scene, language=each, formats=("html",), positions=1).files
         for each in ("en", "zh", "both")
     }
-    assert [True, False, True] == ["a book" in pages[each] for each in pages]
-    assert [False, True, True] == ["课程设计指导书" in pages[each] for each in pages]
+    worked, sheets = ([pages[each][name].decode() for each in pages] for name in ("handout.html", "problem.html"))
+    assert [True, False, True] == ["a book" in page for page in worked]
+    assert [False, True, True] == ["课程设计指导书" in page for page in worked]
+    # who is to solve it does not read "Willis: ..." or the result that a program gave
+    assert [] == [page for page in sheets if "a book" in page or "课程设计指导书" in page]
 
 
 def test_a_problem_does_not_show_how_a_larger_group_is_placed():
