@@ -134,6 +134,10 @@ class Result(Tabled):
         """Its first figure."""
         return next((figure._repr_svg_() for figure in self.figures.values()), None)
 
+    def _repr_html_(self) -> str:
+        """Its first figure above its table: of SVG and HTML a notebook shows HTML alone."""
+        return (self._repr_svg_() or "") + super()._repr_html_()
+
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
             return NotImplemented

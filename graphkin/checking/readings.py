@@ -58,10 +58,11 @@ def read_off(
             if link == sheet.scene.frame.name or "/" in link:
                 continue
             symbol = Symbol(kind, link=link)
-            readings[symbol] = Reading(symbol, r.mm, r.value, order)
+            # a given rate, and that of a link which only slides, is read nowhere
+            readings[symbol] = Reading(symbol, r.mm if r.mm or r.vector is not None else None, r.value, order)
         fixed = Symbol(kind, link=sheet.scene.frame.name)  # it is told to who asks for it
         if fixed in (*sheet.asked, *asked):
-            readings[fixed] = Reading(fixed, 0.0, 0.0, order)
+            readings[fixed] = Reading(fixed, None, 0.0, order)
     readings |= _measured(sheet, (*sheet.asked, *asked), instrument)
     if sheet.has_forces:
         from graphkin.construction.forces import force_readings

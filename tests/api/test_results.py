@@ -59,6 +59,21 @@ def test_every_result_has_a_table_data_and_a_page(kind):
     assert "<" in result._repr_html_()
 
 
+def test_a_notebook_shows_the_picture_above_the_readings():
+    drawn = made("draw")
+    page = drawn._repr_html_()
+    assert page.index("<svg") < page.index("<table>")
+    assert len(repr(drawn.figures)) < 150 * len(drawn.figures)
+
+
+def test_a_given_rate_is_read_nowhere_on_the_paper():
+    checked = made("check")
+    found = {row["symbol"]: row["on_paper_mm"] for row in checked.data["readings"]}
+    assert [None, None] == [checked["omega_1"].on_paper, found["omega_1"]]
+    assert "on paper" not in repr(checked["omega_1"])
+    assert found["omega_3"] > 0
+
+
 @pytest.mark.parametrize("kind", MAKE)
 def test_every_result_is_asked_by_name_and_tells_an_unknown_one(kind):
     assert made(kind)[NAMES[kind]] is not None

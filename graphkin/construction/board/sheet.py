@@ -163,7 +163,7 @@ class Reading:
 
     Parameters
     ----------
-    on_paper : its length on paper (mm), None for an angle read with the protractor
+    on_paper : its length on paper (mm), None for an angle read with the protractor and for a rate that is given
     value : of a vector a complex number (m/s, m/s2, N), of others a float (rad/s, rad/s2, counter-clockwise positive;
         m, rad, N m)
     diagram : the diagram of the reading

@@ -76,6 +76,9 @@ class Drawing(Page, Kept):
     def __hash__(self) -> int:
         return hash((self.width, self.height, self.title, len(self.children)))
 
+    def __repr__(self) -> str:
+        return f"<Drawing {self.title!r}: {self.width:.5g} x {self.height:.5g} mm>"
+
     further: tuple[Drawing, ...] = ()
 
     def _svg(self, outlines: bool = False) -> bytes:
