@@ -52,7 +52,8 @@ def test_an_angular_velocity_is_computed_from_what_was_measured():
     sheet, speaker = _six_bar()
     step = next(s for s in sheet.steps if s.phrase.key == "omega turning")
     assert Phrase("clockwise") == step.phrase.gaps["sense"]
-    assert ["$ω_{3}$ = 1075.8 mm/s / 381.6 mm = 2.819 rad/s"] == [*map(repr, telling(speaker, step).work)]
+    length, rate = "$l_{CB}$ = 190.80 mm × 2 mm/mm = 381.6 mm", "$ω_{3}$ = 1075.8 mm/s / 381.6 mm = 2.819 rad/s"
+    assert [length, rate] == [*map(repr, telling(speaker, step).work)]
 
 
 def test_a_coriolis_part_is_computed_from_a_measured_rate_and_a_measured_velocity():

@@ -161,6 +161,8 @@ class _Search:
         """Take the best equation with two unknown sizes."""
         best: tuple[tuple[float, ...], Path] | None = None
         for path in self.all_ways(2, self.nodes):
+            if best is not None and best[0][:2] < (0.0, len(path) - 1.0):
+                continue  # even a right angle makes it no better
             two = [e for e in path if e.unknown]
             sine = abs(cross(self.way(two[0]), self.way(two[1]))) if len(two) == 2 else 0.0
             cost = (float(sine < 0.05), len(path) + 0.6 * self.graph.strange(path) - sine,

@@ -243,21 +243,23 @@ class VectorGraph:
         nodes, known : drawn nodes, through which no path leads, and found unknowns
         shortest : a path may return to its beginning with more than this number of edges besides the last
         """
-        stack: list[Path] = [(e,) for e in self.edges[start]]
+        stack: list[tuple[Path, tuple[Unknown, ...]]] = [((), ())]
         while stack:
-            path = stack.pop()
-            at = path[-1].end
-            unknown = [e.unknown for e in path if e.unknown and e.unknown not in known]
-            if len(unknown) > most or len(set(unknown)) < len(unknown):
-                continue
-            if stop(at):
+            path, unknowns = stack.pop()
+            at = path[-1].end if path else start
+            if path and stop(at):
                 yield path
                 continue
-            if at in nodes or len(path) >= LONGEST:
+            if path and (at in nodes or len(path) >= LONGEST):
                 continue
             visited = {e.end for e in path}
-            stack += [(*path, e) for e in self.edges[at] if e.end not in visited and (
-                e.end != start or len(path) > shortest)]
+            for e in self.edges[at]:
+                if e.end in visited or (e.end == start and 0 < len(path) <= shortest):
+                    continue
+                if not e.unknown or e.unknown in known:
+                    stack.append(((*path, e), unknowns))
+                elif len(unknowns) < most and e.unknown not in unknowns:
+                    stack.append(((*path, e), (*unknowns, e.unknown)))
 
     def strange(self, path: Path) -> int:
         """The number of nodes of a path that are no joints."""
