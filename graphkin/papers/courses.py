@@ -164,16 +164,16 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
         raise CallError.of("positions", "none of them can be drawn", "give others in positions")
     taken: dict[str, list[str]] = {}
     for who in listed:
-        if who.place:
-            taken.setdefault(who.scheme, []).append(who.place)
+        if who.place and (who.scheme or len(course) == 1):
+            taken.setdefault(scheme_for(who, course).name, []).append(who.place)
     for who in listed:
         if not who.scheme and len(course) > 1:
             # the first scheme with a position left, and when all are dealt out from the start again
             name = min(free, key=lambda n: len(taken.get(n, ())) // max(1, len(free[n])))
             who = replace(who, scheme=name)
         if not who.place:
-            places_taken = taken.setdefault(who.scheme, [])
-            places = free[scheme_for(who, course).name]
+            scheme = scheme_for(who, course).name
+            places_taken, places = taken.setdefault(scheme, []), free[scheme]
             who = replace(who, place=min(places, key=places_taken.count))
             places_taken.append(who.place)
         yield who

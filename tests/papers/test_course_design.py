@@ -73,8 +73,9 @@ def test_schemes_without_their_data_are_refused_and_groups_are_not(tmp_path):
     wished = {"find": ["v_C"], "positions": 2, "formats": ("html",)}
     with pytest.raises(CallError, match=r"方案: schemes without their data: I, II; .*--rows"):
         graphkin.course_design(SCENE, students=_file(tmp_path, "姓名,方案\nA,I\nB,II\nC,\n"), **wished)
-    for text in ("姓名,方案\nA,\nB,\n", "name,group\nA,I\nB,II\n"):
-        assert 2 == len(graphkin.course_design(SCENE, students=_file(tmp_path, text), **wished).rows)
+    for text in ("姓名,方案\nA,\nB,\n", "name,group\nA,I\nB,II\n", "name,group,position\nA,I,1\nB,II,\n"):
+        made = graphkin.course_design(SCENE, students=_file(tmp_path, text), **wished)
+        assert ["1", "2"] == [student.place for student, _ in made.rows]  # no two have the same paper
     rows = _file(tmp_path, "scheme,links.1.length\nI,23.8\n", "schemes.csv")
     with pytest.raises(CallError, match='line 2: there is no scheme "II"'):
         graphkin.course_design(SCENE, students=_file(tmp_path, "name,scheme\nA,II\n"), rows=rows, **wished)
