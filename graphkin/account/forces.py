@@ -160,7 +160,7 @@ class InForces(Telling):
             turned = f"{number(pushed.moment / units.newtons, MOST)} {units.force}·m"
             said.append(moment + " = −" + sign("J", link) + " " + rate("alpha", link) + f" = {turned}")
         if pushed.mass.inertia and pushed.h is not None:
-            said.append(sign("h", link) + f" = {number(abs(pushed.h) / units.metres, MOST)} {units.length}")
+            said.append(sign("h", link) + f" = {number(pushed.h / units.metres, MOST)} {units.length}")
         yield spaced(";  ", said)
 
     def _moments(self) -> Iterator[Wording]:

@@ -282,7 +282,7 @@ def _pair(symbol: Symbol) -> str:
 
 def _named(convention: Convention, symbol: Symbol) -> tuple[str, str]:
     links = _pair(symbol)
-    at = f",{symbol.of.point}" if symbol.of else ""
+    at = f",{symbol.of.point}{symbol.of.link}" if symbol.of else ""
     letter, mark = _INERTIA[convention]
     match symbol.kind:
         case "F" if symbol.other:

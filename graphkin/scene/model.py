@@ -643,13 +643,15 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
 
 def balance_of(mechanism: Mechanism, driver: Driver) -> Symbol:
     """The balancing load in place of a driver: a moment ``M_2``, or a force ``F_2`` along the guide on which link 2
-    slides, ``F_2@B`` where other drivers push that link too."""
+    slides, ``F_2@B`` where other drivers push that link too, ``F_2@B@3`` where they push its point B along guides of
+    link 3 and others."""
     if driver.turns:
         return Symbol("M", link=driver.link)
-    pins = {slide.key: slide.pin for slide in mechanism.slides}
-    link, pin = mechanism.body_of(driver.link), pins.get(driver.key)
-    several = sum(not d.turns and mechanism.body_of(d.link) == link for d in mechanism.drivers) > 1
-    return Symbol("F", PointRef(pin) if several and pin else None, link=link)
+    pushing = [s for s in mechanism.slides if s.key in {d.key for d in mechanism.drivers if not d.turns}]
+    own = next(s for s in pushing if s.key == driver.key)
+    others = [s.pin for s in pushing if s.body == own.body and s is not own]
+    at = PointRef(own.pin, own.b if own.pin in others else "") if others and own.pin else None
+    return Symbol("F", at, link=own.body)
 
 
 def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:

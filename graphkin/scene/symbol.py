@@ -56,7 +56,7 @@ def forms_of_names(point: str, link: str, lax: bool = False) -> dict[str, str]:
         "pair": rf"{one}{between('/-')}{other}",
         "links": rf"{one}{between('-/')}{other}",
         "place": part("of"),
-        "link or joint": rf"{one}(?:{between('/')}{other})?(?:@{of})?{plus}",
+        "link or joint": rf"{one}(?:{between('/')}{other})?(?:@{part('of')})?{plus}",
         "of link": rf"{one}{plus}",
     }
     named = {
@@ -125,7 +125,7 @@ KINDS = {
         Kind("swing", "angle", "link", "turn", "swing_3", letter="ψ"),
         Kind("K", "number", "link of link", "turn", "K_5/6"),
         Kind("theta_lag", "angle", "link of link", "turn", "theta_lag_5/6", letter="θ", mark="K"),
-        Kind("F", "force", "link or joint", "force", "F_5/6, F_5/6@C, F_2, F_2@B", True),
+        Kind("F", "force", "link or joint", "force", "F_5/6, F_5/6@C, F_2, F_2@B, F_2@B@3", True),
         Kind("Fi", "force", "of link", "force", "Fi_6", True),
         Kind("G", "force", "of link", "force", "G_6", True),
         Kind("P", "force", "load", "force", "P_cut", True),

@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 
 import graphkin
+from graphkin.account.forces import force_stages
+from graphkin.account.notation import notation_of
+from graphkin.account.voice import Account
 from graphkin.api.report_text import report_text
 
 SHAPER = Path(__file__).parent.parent / "validation" / "forces" / "shaper-scheme-2.toml"
@@ -181,3 +184,32 @@ def test_two_cylinders_on_one_link_have_a_force_each():
     _, at_b, at_c = np.linalg.solve([[u.real for u in units], [u.imag for u in units], arms], [0, 30, 0])
     assert [at_b * units[1], at_c * units[2]] == pytest.approx([solved["F_1@B"][0], solved["F_1@C"][0]])
     assert graphkin.check(plate, find=["F_1@B", "F_1@C"]).ok
+
+
+def test_two_cylinders_on_one_pin_have_a_force_each():
+    # both were F_1@B: solve gave their sum, check was not ok
+    plate = {
+        "frame": {"points": {"E": [-60, -80], "G": [160, -60], "D": [0, 60]}},
+        "links": {"1": {"points": ["B", "H"], "length": 40}, "5": {"points": ["D", "H"], "length": 60},
+                  "3": {"points": ["E"]}, "4": {"points": ["G"]}},
+        "pins": {"B": {"of": "1", "in": ["3", "4"]}},
+        "masses": {"1": {"at": "B", "mass": 3}},
+        "gravity": {"g": 10},
+        "driver": [{"slide": "B/3", "travel": 150, "velocity": 0}, {"slide": "B/4", "travel": 180, "velocity": 0}],
+        "sketch": {"B": [60, 50], "H": [50, 85]},
+    }  # fmt: skip
+    solved = graphkin.solve(plate, find=["F_1@B@3", "F_1@B@4", "B"])
+    b = complex(solved["B@1"][0])
+    units = [along / abs(along) for along in (b - (-60 - 80j), b - (160 - 60j))]
+    sizes = np.linalg.solve([[u.real for u in units], [u.imag for u in units]], [0, 30])
+    assert [*(sizes * units)] == pytest.approx([solved["F_1@B@3"][0], solved["F_1@B@4"][0]])
+    assert graphkin.check(plate).ok
+
+
+def test_the_inertia_force_is_shifted_by_one_number_in_its_sum_and_in_the_table():
+    # 183.8 in the sum, −183.8 in the table
+    checked = graphkin.check("shaper-forces")
+    account = Account(checked.sheet, notation_of(checked.sheet, "us"))
+    sums = [repr(line) for stage in force_stages(account) for told in stage.steps for line in told.sums]
+    assert f"$h_{{4}}$ = −{abs(checked['h_4'].exact):.1f}" in " ".join(sums)
+    assert checked["h_4"].exact < 0.0

@@ -134,8 +134,10 @@ def test_a_link_seen_from_the_link_it_is_hinged_to_turns_about_the_hinge_and_has
 
 @pytest.mark.parametrize(
     "name",
-    ["F_5/6", "F_5/6@C", "F_5/6+", "F_2", "Fi_6", "G_6", "P_cut", "P_cut+", "M_2", "M_6/1+", "Mi_4", "h_4", "arm_G_6"],
-)
+    [
+     "F_5/6", "F_5/6@C", "F_5/6+", "F_1@B@3", "F_2", "Fi_6", "G_6", "P_cut", "P_cut+", "M_2", "M_6/1+", "Mi_4", "h_4",
+     "arm_G_6"],
+)  # fmt: skip
 def test_names_of_forces_are_written_as_they_are_read(name: str) -> None:
     assert name == str(Symbol.parse(name))
 
