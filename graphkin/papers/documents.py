@@ -28,9 +28,10 @@ from graphkin.account.headings import FIGURE_WORDS, number, titles
 from graphkin.account.notation import pole, scale_statement
 from graphkin.account.voice import whole_sentence
 from graphkin.checking.report import COVERAGE, Compared, exact, measured, paper
-from graphkin.construction.board.steps import DiagramName
+from graphkin.construction.board.steps import DiagramName, PointNames
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage
+from graphkin.drawing.figures.constructions import cam_given
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
 from graphkin.drawing.figures.train import PLAN_WORDS, train_pages
 from graphkin.drawing.write.drawing import Drawing
@@ -61,7 +62,7 @@ from graphkin.plane import added_up, degrees
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
-from graphkin.words import Phrase, about, languages, listed, rich_text, say, sense_of, word
+from graphkin.words import Neutral, Phrase, about, languages, listed, rich_text, say, sense_of, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import LEAST, amount, pointing, printed
 
@@ -223,6 +224,12 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     yield from _clauses(lesson, "guides", {each: _guides(lesson, each) for each in languages(language)})
     shapes = {each: given_shapes(scene, letters, each) for each in languages(language)}
     yield from _clauses(lesson, "links given", shapes)
+    for cam in scene.whole.cams:
+        laws = ((each, Phrase("given cam", link=cam.link, law=Neutral(cam_given(scene.whole, cam, each))))
+                for each in languages(language))  # fmt: skip
+        yield Paragraph(tuple((each, whole_sentence(rich_text(law, each), each)) for each, law in laws))
+        for centre in scene.by_name[cam.link].points.keys() - scene.whole.by_name[cam.link].points.keys():
+            yield Paragraph(lesson.sentence(Phrase("centre of cam", point=PointNames((centre,)), link=cam.link)))
     yield from _formulas(lesson, "driver", [*given_drivers(lesson.sheet, letters), *_speeds(scene)])
     for sense in _senses(scene):
         yield Paragraph(lesson.sentence(sense))

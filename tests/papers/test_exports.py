@@ -123,10 +123,12 @@ def test_every_question_says_what_is_joined_to_what_and_what_its_figure_shows(fi
 @pytest.mark.parametrize(
     ("scene", "language", "said"),
     [("cam-offset-roller", "en", "Link 1 is a cam, and link 2 its roller follower."),
+     ("cam-offset-roller", "en", "120°–150° dwell, 150°–260° 3-4-5 −24 mm, 260°–360° dwell."),
+     ("cam-flat-face", "zh", "O 是凸轮 1 与从动件接触处的曲率中心。"),
      ("gears-epicyclic", "zh", "齿轮 1 与齿轮 3 啮合，其轴线在构件 2 上。"),
      ("geneva-step", "en", "Point B of link 1 runs in a slot of link 2.")],
 )  # fmt: skip
-def test_the_structure_of_a_question_is_that_of_the_scene(scene, language, said):
+def test_a_question_tells_its_structure_and_the_law_of_its_cam(scene, language, said):
     made = graphkin.handout(scene, formats=("html",), positions=1, exports=("gift",), language=language)
     assert said in re.sub("<[^>]+>", "", made.question.html)
 
