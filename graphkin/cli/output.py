@@ -91,7 +91,7 @@ def _show_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tupl
 
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
     for i, head in enumerate(heads):
-        table.add_column(head, justify="right" if i in right else "left", no_wrap=i != 1)
+        table.add_column(head, justify="right" if i in right else "left", overflow="fold")
     for row in rows:
         table.add_row(*(Text(printable(cell)) for cell in row))
     Console().print(table)

@@ -10,12 +10,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 import pytest
 import tomlkit
 
 import graphkin
+from graphkin.cli.output import print_table
 
 from ..command import PROGRAM, run
 from ..scenes import four_bar
@@ -138,6 +140,17 @@ def test_scenes_are_listed_in_eighty_columns_with_their_titles_in_one_language(c
     (row,) = [line for line in lines if " slotter-75-150 " in line]
     assert title in row
     assert ("插床" in row) == ("插床" in title)
+
+
+def test_a_table_loses_nothing_in_eighty_columns(capsys, monkeypatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setenv("TERM", "dumb")
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    audited = graphkin.audit(SIXBAR)
+    for rows in ([audited.heads, *audited.rows], [["文件名", "名称", "F"], ["loader-cylinder", "装载机构" * 20, "2"]]):
+        print_table(rows[0], rows[1:])
+        shown = Counter(capsys.readouterr().out)
+        assert Counter("".join(map("".join, rows)).replace(" ", "")) == shown - Counter({c: shown[c] for c in " ─\n"})
 
 
 NUMBER = re.compile(r"[-−]?\d+(\.\d+)?(e-?\d+)?(, -?\d+(\.\d+)?(e-?\d+)?)?")
