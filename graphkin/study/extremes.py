@@ -21,8 +21,10 @@ from graphkin.solver.algebra.pose import Array
 from graphkin.study.quantities import course_of, of_extrapolated, of_smooth, rates_of, smooth_course
 
 NOTHING = 5e-11
-"""A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better; of a position at an end of a
-motion what is no more (rad, or of the size) is 0 too."""
+"""A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
+NOTHING_AT_END = 2e-9
+"""A position at an end of a motion this small (rad, or of the size) is 0: it grows with the root of the distance from
+there, and so does the rounding of the end."""
 SAMPLES, LOCAL = 400, 1e-9
 """Positions over a range that ends, and how much, of the largest value there, goes beyond an extreme."""
 NEAR = np.array([1e-8, 1e-6])
@@ -165,7 +167,7 @@ class CurveParameter:
     def end(self, curve: Curve, which: int) -> float:
         """The value of a position at the lower or upper end of the motion, 0 where it is nothing but rounding."""
         value, size = self._at_end(curve, which), self.reach.scene.size
-        return 0.0 if abs(value) <= NOTHING * size**curve.quantity.measure.length else value
+        return 0.0 if abs(value) <= NOTHING_AT_END * size**curve.quantity.measure.length else value
 
     def _at_end(self, curve: Curve, which: int) -> float:
         """The value at an end, where the solver refuses it, or loses half of its digits: from the curve, or from values

@@ -659,6 +659,14 @@ def test_what_is_nought_at_an_end_of_the_motion_is_told_as_0(name: str, key: str
     assert 0.0 in [e.value for e in curve.extremes if e.kind == "end"]
 
 
+def test_an_angle_of_0_at_an_end_of_the_motion_is_told_as_0_where_the_scene_stands_there() -> None:
+    # -1.341658913e-08° @ 170 mm
+    swing = mechanism_of_text(scenes.PISTON.replace("travel = 150", "travel = 170"), "piston")
+    ends = next(t for t in study_turn(driver_range(swing)).curves if str(t.quantity) == "theta_1").extremes
+    assert [math.pi, 0.0] == pytest.approx([e.value for e in ends], abs=1e-9)
+    assert 0.0 == ends[-1].value
+
+
 def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found() -> None:
     study = study_turn(driver_range(mechanism_of({
         "frame": {
