@@ -62,7 +62,7 @@ from graphkin.plane import added_up, degrees
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
-from graphkin.words import Neutral, Phrase, about, languages, listed, rich_text, say, sense_of, word
+from graphkin.words import Neutral, Phrase, about, joined, languages, listed, rich_text, say, sense_of, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import LEAST, amount, pointing, printed
 
@@ -210,7 +210,19 @@ def task(lesson: Lesson) -> Iterator[Paragraph]:
     """The given data and the question."""
     yield from given(lesson)
     yield from _formulas(lesson, "find", [lesson.letters.vector(s) for s in lesson.questions], "symbol comma")
+    yield from coincident_points(lesson)
     yield from reach(lesson)
+
+
+def coincident_points(lesson: Lesson) -> Iterator[Paragraph]:
+    """The meaning of the asked points that are told apart by their link, ``B_3``."""
+    ends = (ref for symbol in lesson.questions for ref in (symbol.of, symbol.to) if ref is not None)
+    told = dict.fromkeys(
+        Phrase("coincident point", point=ref, link=link, place=PointNames((ref.point,)))
+        for ref in ends if (link := ref.link or lesson.letters.blocks.get(ref.point))
+    )  # fmt: skip
+    if told:
+        yield Paragraph(lesson.sentence(joined("listed", told)))
 
 
 def given(lesson: Lesson) -> Iterator[Paragraph]:

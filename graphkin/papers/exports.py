@@ -22,7 +22,7 @@ from graphkin.checking.slips import Evidence
 from graphkin.construction import Plan
 from graphkin.errors import GraphkinError
 from graphkin.papers.blocks import clean, in_each
-from graphkin.papers.documents import given, key_rows, reach, scene_title
+from graphkin.papers.documents import coincident_points, given, key_rows, reach, scene_title
 from graphkin.papers.html import rendered, said_html, words_html
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.pictures import mechanism_picture
@@ -86,7 +86,7 @@ def question_of(lesson: Lesson, planned: Plan, motion: Motion, name: str) -> Que
     built = in_each(
         lesson.language, lambda each: word("between sentences", each).join(structure_words(scene.whole, each))
     )
-    paragraphs = [built, *(p.words for p in (*given(lesson), *reach(lesson)))]
+    paragraphs = [built, *(p.words for p in (*given(lesson), *coincident_points(lesson), *reach(lesson)))]
     drawing = mechanism_picture(lesson)
     asked = []
     for row in key_rows(lesson):

@@ -117,6 +117,7 @@ def test_every_question_says_what_is_joined_to_what_and_what_its_figure_shows(fi
         for text in texts:
             assert not re.search(r"Source|Find\W", text), platform  # each asks for its own, and gives nothing away
             assert "Link 1 joins A, B. Link 2 joins B. " in re.sub(r"<p[^>]*>", "", text), platform
+            assert " is the point of link 3 at B" in re.sub("<[^>]+>", "", text), platform
             assert "slides on link 6" in re.search(r'alt="([^"]*)"', text)[1], platform
 
 
