@@ -89,6 +89,11 @@ def test_a_link_that_turns_on_and_on_has_no_limit_positions(name: str) -> None:
         graphkin.check(FOUR_BAR, find=[name])
 
 
+def test_a_crank_that_other_links_stop_does_not_turn_on_and_on() -> None:
+    with pytest.raises(Unsolvable, match="swing_2: belongs to a whole turn, but driver 2 does not turn fully"):
+        graphkin.check("triad-slider", find=["swing_2"])
+
+
 def test_a_driver_that_does_not_turn_fully_has_no_whole_turn() -> None:
     scene = {**FOUR_BAR, "driver": {"link": "3", "angle": 58, "omega": 1}, "sketch": {"B": [75, 130]}}
     with pytest.raises(Unsolvable, match="K_1: belongs to a whole turn, but driver 3 does not turn fully"):

@@ -188,6 +188,9 @@ def limits_asked(
         if symbol.scope != "turn" or symbol.pair in limits:
             continue
         output = sliding_pair(structure.slides, symbol) if symbol.other else symbol.link
+        if output == structure.scene.drivers[0].link:  # alone it turns on and on: other links may stop it
+            elements, turn = structure.elements, None
+            poses = poses_at(PlacedElements(structure, elements), values)
         turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))
         limits[symbol.pair] = turn.limits(output, str(symbol))
     return limits
