@@ -354,9 +354,17 @@ def test_what_is_written_in_another_language_of_the_page_is_saved(page) -> None:
     page.select_option("select >> nth=0", "zh")
     page.wait_for_selector("button:has-text('撤销')")
     type_at_the_top(page, "# two\n")
+    page.evaluate("document.activeElement.blur()")
     page.once("dialog", lambda asked: asked.accept())
+    mark = page.evaluate("(() => { const { state } = document.getElementById('board').board; "
+                         "const mark = state.mark; state.mark = 'another'; return mark; })()")
+    page.wait_for_selector(".agrees")
+    page.keyboard.press("Control+s")
+    page.wait_for_selector(".told:has-text('clockwise.toml：打开之后已被别人改动')")
+    page.evaluate("mark => { document.getElementById('board').board.state.mark = mark }", mark)
     page.keyboard.press("Control+s")
     page.wait_for_selector("header button:has-text('保存'):disabled")
+    assert page.query_selector(".agrees") is not None
     assert [] == page.query_selector_all(".problems li")
 
 

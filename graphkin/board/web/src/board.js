@@ -234,7 +234,8 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
     };
     requestAnimationFrame(tick);
   };
-  root.onkeydown = (event) => { // in another language the page is mounted anew: each key is heard once
+  const keys = root.parentElement === document.body ? document.body : root; // also where nothing on the page has the focus
+  keys.onkeydown = (event) => { // in another language the page is mounted anew: each key is heard once
     if (event.key === " " && (event.target === document.body || event.target === slider)) {
       event.preventDefault();
       play();
@@ -355,7 +356,10 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
     } else if (!state.asked && !window.confirm(`${word("may write")} ${name}? ${word("kept copy")} ${name}~`)) return undefined;
     state.asked = true;
     const told = await ask({ do: "save", name, text: state.text, mark });
-    if (!told.ok) return problems(told.problems);
+    if (!told.ok) { // the scene is as right as it was
+      limit.textContent = told.problems.map((one) => one.text).join(" ");
+      return undefined;
+    }
     Object.assign(state, { name, mark: told.mark, own: true, dirty: false });
     fileName.textContent = name;
     saveButton.disabled = true;
