@@ -57,6 +57,15 @@ def test_examples_in_docstrings_are_true(name):
     assert 0 == found.failed
 
 
+def test_a_parameter_that_is_as_of_another_function_is_told_there():
+    strange = []
+    for name in graphkin.__all__:
+        told = re.findall(r"(?m)^ *([\w, ]+) : as for `(\w+)`", getattr(graphkin, name).__doc__ or "")
+        strange += [f"{name}: {key}" for keys, other in told for key in keys.split(", ")
+                    if not re.search(rf"(?m)^ *(\w+, )*{key}(, \w+)* : (?!as for)", getattr(graphkin, other).__doc__)]
+    assert [] == strange
+
+
 @pytest.mark.parametrize("page", sorted({page for page, _ in blocks("pycon")}))
 def test_examples_in_python_are_true(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

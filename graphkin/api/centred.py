@@ -414,7 +414,8 @@ def centrodes(
     scene, at : as for `solve`; the moving centrode is shown at this position
     link : a moving link that neither turns about a fixed pivot nor only slides
     point : a point of the link, whose path is shown too
-    out, formats, language, convention : as for `draw`
+    out : folder for centrode.svg (in each of the ``formats``) and centrode.csv; nothing is written without it
+    language, convention : as for `draw`
 
     Raises
     ------

@@ -280,7 +280,8 @@ def draw(
 
     Parameters
     ----------
-    scene, at, find, instrument, seed : as for `check`
+    scene, at : as for `solve`
+    find, instrument, seed : as for `check`
     out : folder for the figures in each of the ``formats``, readings.csv and report.txt
     figures : names of figures, to draw these only; without it mechanism, velocity, acceleration, sheet, centres, and
         those for which the scene has a table

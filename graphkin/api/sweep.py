@@ -287,7 +287,7 @@ def sweep(
 
     Parameters
     ----------
-    scene, at : as for `check`
+    scene, at : as for `solve`
     find : quantities of the table, the symbols of `check` and "C" (place of a point), "theta_3" (angle of a link),
         "s_3/4" (travel of a sliding pair); the scene's own if None, or else all motions
     out : folder for table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; an

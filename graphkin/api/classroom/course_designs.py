@@ -116,7 +116,8 @@ def course_design(
 
     Parameters
     ----------
-    scene, find : as for `check`
+    scene : as for `solve`
+    find : as for `check`
     students : a CSV file with a line for each student: a column name (姓名), and where wished id (学号), scheme
         (方案, group) and position (位置, its name); a student without a position gets the next one of the scheme, a
         student without a scheme the next scheme with a position left.  Without it one report with a blank cover (one

@@ -169,7 +169,8 @@ def handout(
 
     Parameters
     ----------
-    scene, at, find : as for `check`
+    scene, at : as for `solve`
+    find : as for `check`
     out : folder for the files; none are written without it
     formats : "html", "pdf" or both
     language : "en", "zh" or "both"; the scene's own if None

@@ -141,6 +141,7 @@ def problem_set(
 
     Parameters
     ----------
+    scene : as for `solve`
     variants, seed : their number, newly drawn; each assembles, has round numbers, crosses no lines under 20 degrees,
         shows every asked reading over 10 mm long, and differs in its answers from all others by more than the tolerance
     rows : instead, a CSV file with a row of data for each group or student (see `graphkin.papers.data_rows`)
