@@ -253,7 +253,7 @@ def lessons(singularities: Sequence[Singularity]) -> tuple[Phrase, ...]:
 WIDTH, HEIGHT = 210.0, 297.0
 LEFT, TOP = 10.0, 38.0
 CELL = complex(98.0, 85.0)
-PLOT = complex(78.0, 54.0)
+PLOT = complex(78.0, 51.0)
 INDENT = 13.0
 PER_PAGE = 6
 LETTERS = 2.5
