@@ -200,9 +200,6 @@ class Symbol:
     axis: str = ""
     along: bool = False
 
-    def __hash__(self) -> int:  # looked up by the ten thousand: of the names that hardly ever agree alone
-        return hash((self.kind, self.of, self.to, self.link, self.other))
-
     @classmethod
     def parse(cls, text: str) -> Symbol:
         """Read a symbol.  Raises ValueError, saying what is wrong, where it is none."""

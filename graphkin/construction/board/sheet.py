@@ -31,7 +31,6 @@ from graphkin.construction.board.steps import (
     Term,
     Vector,
     VectorStep,
-    changed,
 )
 from graphkin.plane import Pose, cross
 from graphkin.scene.model import Mechanism
@@ -552,7 +551,7 @@ class Board:
 
     def do(self, step: Step) -> None:
         """Record a step, with its number in the order."""
-        step = changed(step, number=len(self.steps) + 1)
+        step = replace(step, number=len(self.steps) + 1)
         self.steps.append(step)
         self.causes.append((self.instrument.acts, step))
 

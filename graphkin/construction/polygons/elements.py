@@ -32,7 +32,6 @@ from graphkin.construction.board.steps import (
     Superposed,
     Term,
     Vector,
-    changed,
 )
 from graphkin.construction.polygons.equations import (
     add_rates,
@@ -571,7 +570,7 @@ class TrialPolygons:
                 if step.diagram == "mechanism":  # special points met with first
                     plot.do(step)
             steps = [step for step in trial.board.steps if step.diagram == order]
-            strokes = [changed(aid, trial=number) for step in steps for aid in step.auxiliary]
+            strokes = [replace(aid, trial=number) for step in steps for aid in step.auxiliary]
             assumption = self.as_symbols(assumed)
             plot.do(RateTrial("trial", "polygon", order, tuple(strokes), trial=number, assumed=assumption, far=far))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]

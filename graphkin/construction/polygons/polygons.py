@@ -32,7 +32,6 @@ from graphkin.construction.board.steps import (
     Term,
     Vector,
     VectorStep,
-    changed,
 )
 from graphkin.construction.polygons.vector_graph import VectorChain, node
 from graphkin.construction.position.links_on_paper import PlacedLinks, pushed_by_driver
@@ -287,7 +286,7 @@ class Polygons:
         """Put a vector into a polygon, with the step that drew it and its further strokes."""
         if step.diagram in ORDERS:
             self.drawn[step.diagram][vector.symbol] = vector
-        self.do(changed(step, strokes=(self.shown(vector), *step.strokes)))
+        self.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
 
     def shown(self, vector: Vector) -> Vector:
         """The drawn form of a vector: a vector of a trial polygon, seen from a held link or to a special point is a
@@ -295,7 +294,7 @@ class Polygons:
         """
         of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
         if self.trial or self.held or of_special:
-            return changed(vector, aid=True, trial=self.trial)
+            return replace(vector, aid=True, trial=self.trial)
         return vector
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
@@ -376,13 +375,13 @@ class Polygons:
         at = self.own_values.found(symbol, 0j, at)
         self.ends[order][ref] = at
         if not self.held:
-            step: Step = changed(image, ref=label, strokes=(Mark(label, at), *image.strokes))
+            step: Step = replace(image, ref=label, strokes=(Mark(label, at), *image.strokes))
         elif image.reason in ("same place", "translation"):
             step = VectorStep("join", "pole to end", order, symbol=symbol)
         else:
             begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in image.refs)
             corners = tuple(corner.point for corner in (*image.refs, label))
-            step = changed(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
+            step = replace(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def on(self, ref: PointRef, name: str) -> bool:
