@@ -228,10 +228,10 @@ def check(
     structure = solver.structure_of(given)
     motion = solver.solved_here(structure, values, here)
     planned = plan_with_forces(structure, values, here, by_name)
-    return with_elsewhere(settled(checked(planned, motion, hand)), asked, seed)
+    return with_elsewhere(settled(checked(planned, motion, hand), hand), asked, seed)
 
 
-def settled(made: Checked) -> Checked:
+def settled(made: Checked, hand: Instrument) -> Checked:
     """A check that settles something.  Raises Unsolvable: so near a dead point that nothing can be judged."""
     if not made.report.settles_nothing:
         return made
@@ -239,9 +239,9 @@ def settled(made: Checked) -> Checked:
     values = made.sheet.drivers
     drivers = [Phrase("driver at value", driver=d.key, value=scene.unit_of(d).said(values.get(d.key, d.values[0])))
                for d in scene.drivers]  # fmt: skip
+    wanted = "move the driver off this position" if hand is EXACT else "draw exactly with another seed or"
     raise Unsolvable("dead point", Problem(Phrase("driver of driver", driver=listed(drivers)),
-                                           "so near a dead point nothing is determined",
-                                           "move the driver off this position"))  # fmt: skip
+                                           "so near a dead point nothing is determined", wanted))  # fmt: skip
 
 
 def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:

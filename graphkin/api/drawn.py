@@ -313,7 +313,7 @@ def draw(
     structure = solver.structure_of(given)
     motion = solved_here(structure, values, asked_here(asked))
     planned = plan_with_forces(structure, values, asked_here(asked), asked_symbols(given, find))
-    whole = with_elsewhere(settled(checked(planned, motion, hand)), asked, seed)
+    whole = with_elsewhere(settled(checked(planned, motion, hand), hand), asked, seed)
     by_name = figures is not None
     drawn = Drawn(whole, planned, motion, wanted, seed, language, convention, driver, places, by_name)
     return drawn.saved(out, formats)

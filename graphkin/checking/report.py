@@ -401,7 +401,7 @@ def deviation(compared: Compared, units: Units) -> str:
         if compared.uncertainty is not None and compared.bound <= compared.floor:
             return "0"
         return f"± {amount(compared.symbol.unit(units).of(max(compared.bound, compared.error)), 2)}"
-    return f"{100 * compared.relative:.2g} %"
+    return f"{amount(100 * compared.relative, 2)} %"
 
 
 # -- readings in the units of files ------------------------------------------------------------------------------------

@@ -253,7 +253,7 @@ def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Term], Term]
 def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     """Every explanation for a wrong value of a symbol."""
     exact = case.exact(symbol)
-    yield Suspect(Phrase("slip sign"), -exact, 0.15)
+    yield Suspect(Phrase("slip sign"), -exact, 0.5)
     if isinstance(exact, complex):
         x, y = exact.real, exact.imag
         for phrase, value in (

@@ -169,8 +169,11 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     for who in listed:
         if not who.scheme and len(course) > 1:
             # the first scheme with a position left, and when all are dealt out from the start again
-            name = min(free, key=lambda n: len(taken.get(n, ())) // max(1, len(free[n])))
-            who = replace(who, scheme=name)
+            rounds = {n: len(taken.get(n, ())) // max(1, len(free[n])) for n in free}
+            alike = {n: taken.get(n, []).count(who.place) for n in free}
+            who = replace(who, scheme=min(free, key=lambda n: (alike[n], rounds[n])))
+            if who.place:
+                taken.setdefault(who.scheme, []).append(who.place)
         if not who.place:
             scheme = scheme_for(who, course).name
             places_taken, places = taken.setdefault(scheme, []), free[scheme]

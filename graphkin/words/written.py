@@ -166,13 +166,12 @@ def in_sentence(words: str) -> str:
 
 
 def printed(text: str) -> str:
-    """A number for people: powers of ten as such, a typographic minus sign.
+    """A number for people, alone or with its unit: powers of ten as such, a typographic minus sign.
 
-    >>> printed("-2.5"), printed("1.2e-07")
-    ('−2.5', '1.2·10⁻⁷')
+    >>> printed("-2.5"), printed("1.2e-07 %")
+    ('−2.5', '1.2·10⁻⁷ %')
     """
-    head, _, power = text.partition("e")
-    return true_minus(f"{head}·10{str(int(power)).translate(_RAISED)}" if power else head)
+    return true_minus(re.sub(r"(?<=\d)e([+-]?\d+)", lambda power: "·10" + f"{int(power[1])}".translate(_RAISED), text))
 
 
 def pointing(span: complex) -> str:

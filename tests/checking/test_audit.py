@@ -98,6 +98,17 @@ def test_a_common_slip_is_called_by_its_name(values, name):
     assert name in entry["looks_like"]
 
 
+@pytest.mark.parametrize(
+    ("scene", "symbol", "said"),
+    [
+        ("geared-five-bar", "alpha_1", "-3"), ("geared-five-bar", "omega_1", "-6"), ("wheel-on-rail", "omega_1", "2"),
+        ("geneva-step", "omega_1", "-10"),
+    ],
+)
+def test_a_wrong_sign_is_named_of_a_number_of_one_figure_too(scene, symbol, said):
+    assert "sign" == judged(scene, **{symbol: said})["looks_like"]
+
+
 def test_the_normal_term_alone_is_known_where_the_image_gave_the_point():
     assert "normal term only (an_B/O4)" == judged("shaper-scheme-2", a_B="317.3")["looks_like"]
 

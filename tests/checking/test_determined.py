@@ -10,7 +10,7 @@ import pytest
 
 import graphkin
 from graphkin.checking.readings import read_off, report_on
-from graphkin.checking.report import Uncertainty, compare
+from graphkin.checking.report import Compared, Uncertainty, compare, deviation
 from graphkin.construction import draft
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of
@@ -19,6 +19,7 @@ from graphkin.scene.tables import Measure
 from graphkin.solver import solve
 from graphkin.solver.values import Lost
 from graphkin.words import Phrase
+from graphkin.words.written import printed
 
 
 def slider_crank(**driver: float) -> dict[str, Any]:
@@ -183,6 +184,21 @@ def test_beside_a_dead_point_that_leaves_nothing_to_judge_a_check_names_it_and_i
     with pytest.raises(Unsolvable, match="so near a dead point that the drawing determines nothing") as stop:
         graphkin.check(scene, at=at)
     assert "dead point" == stop.value.status
+
+
+def test_a_pencil_that_determines_nothing_beside_a_dead_point_is_advised_to_draw_exactly() -> None:
+    with pytest.raises(Unsolvable, match="determines nothing that it finds; draw exactly, with another"):
+        graphkin.check("sixbar-AE70", at=58.9, instrument="pencil")
+    assert graphkin.check("sixbar-AE70", at=58.9).ok
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(("share", "shown"), [(0.031, "3.1 %"), (31.2, "3100 %"), (2.5e-9, "2.5·10⁻⁷ %")])
+def test_a_deviation_is_shown_in_per_cent_however_large_or_small_it_is(share: float, shown: str) -> None:
+    sheet = draft(mechanism_of("slider-crank-offset"))
+    reading = next(r for r in read_off(sheet) if str(r.symbol) == "omega_2")
+    row = Compared(reading, reading.value, share * abs(reading.value), math.inf, 0.0)
+    assert shown == printed(deviation(row, sheet.scene.units))
 
 
 def loops_beside_a_dead_point(angle: float) -> dict[str, Any]:

@@ -9,6 +9,9 @@ from pypdf import PdfReader
 
 import graphkin
 from graphkin import CallError
+from graphkin.papers.courses import PlaceValues, Scheme, dealt_out
+from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import Symbol
 from tests import command
 
 SCENE = "slider-crank-offset"
@@ -67,6 +70,14 @@ def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
         (student.scheme, student.place) for student, _ in made.rows
     ]
     assert "links.1.length" in made.files["01-A-I-1.html"].decode()
+
+
+@pytest.mark.parametrize("lines", ["A,,1\nB,I,\nC,II,2\nD,,\n", "A,I,1\nB,,1\nC,,2\nD,,\n", "A,I,\nB,,1\nC,,\nD,,\n"])
+def test_no_two_students_have_the_same_paper_where_some_give_a_position_and_no_scheme(tmp_path, lines):
+    places = {name: PlaceValues(name, 1.0, {Symbol.parse("v_C"): 1.0}) for name in "12"}
+    course = {name: Scheme(name, mechanism_of(SCENE), (), {}, places) for name in ("I", "II")}
+    dealt = dealt_out(_file(tmp_path, "name,scheme,position\n" + lines), course)
+    assert {("I", "1"), ("I", "2"), ("II", "1"), ("II", "2")} == {(who.scheme, who.place) for who in dealt}
 
 
 def test_schemes_without_their_data_are_refused_and_groups_are_not(tmp_path):
