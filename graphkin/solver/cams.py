@@ -318,7 +318,7 @@ def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
     corners = tuple(_sharp_corners(cam))
     for part in cam.law.parts:
         nodes = np.linspace(part.start, part.end, 4 * NODES)
-        sharp = (ends for ends in intervals(partial(_too_sharp, cam, part), nodes) if ends[1] > ends[0])
+        sharp = intervals(partial(_too_sharp, cam, part), nodes)
         for start, end in ((part.start,) * 2, *sharp) if part.start in corners else sharp:
             if stretches and abs(stretches[-1][1] - start) < SAME:
                 stretches[-1][1] = end

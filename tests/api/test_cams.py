@@ -382,14 +382,16 @@ def crosses_itself(cam) -> bool:
 @pytest.mark.parametrize(
     ("name", "tip", "undercut"),
     [("cam-flat-face", {"flat": True}, True), ("cam-offset-roller", {"roller": 4}, True),
-     ("cam-swinging-roller", {"roller": 4}, True), ("cam-offset-roller", {}, False)],
-    ids=["face", "roller", "swinging roller", "edge"],
+     ("cam-swinging-roller", {"roller": 4}, True), ("cam-offset-roller", {}, False),
+     # the bar has swung past the line of the pivots: a drop of its velocity is a hollow
+     ("cam-swinging-roller", {"roller": 4, "base": {"r": 160}}, False)],
+    ids=["face", "roller", "swinging roller", "edge", "beyond the pivots"],
 )  # fmt: skip
 def test_a_profile_is_undercut_where_the_velocity_drops_under_a_face_or_a_roller(name, tip, undercut, sense):
     scene = graphkin.read(name).to_dict()
     law = [{"to": 30}, {"to": 120, "rise": 20, "by": "uniform"}, {"to": 180}, {"to": 350, "fall": 20, "by": "345"}]
     plain = {key: value for key, value in scene["cams"]["1"].items() if key not in ("roller", "flat", "allow")}
-    scene["cams"]["1"] = plain | tip | {"base": {"r": 60}, "sense": sense, "law": [*law, {"to": 360}]}
+    scene["cams"]["1"] = plain | {"base": {"r": 60}} | tip | {"sense": sense, "law": [*law, {"to": 360}]}
     (made,) = graphkin.cam(scene).made
     assert undercut == crosses_itself(made.cam)
     assert ([[120, 120]] if undercut else []) == made.data["undercut"]
@@ -436,14 +438,24 @@ def test_a_flat_face_square_to_a_slanting_line_has_no_pressure_angle():
     assert {"value": 0.0, "degree": 0.0} == graphkin.cam(slanting).data["cams"]["1"]["pressure"]["rise"]
 
 
-def test_a_base_circle_between_others_that_do_not_do_is_found_for_a_swinging_follower():
-    law = [{"to": 239.4, "rise": 11.43, "by": "cycloidal"}, {"to": 240.1}, {"to": 267.6, "fall": 11.43, "by": "4567"},
-           {"to": 360}]  # fmt: skip
+LATE_FALL = [{"to": 239.4, "rise": 11.43, "by": "cycloidal"}, {"to": 240.1}, {"to": 267.6, "fall": 11.43, "by": "4567"}]
+SLOW = [{"to": 150, "rise": 6, "by": "345"}, {"to": 180}, {"to": 340, "fall": 6, "by": "345"}]
+
+
+@pytest.mark.parametrize(
+    ("pivot", "bar", "law", "base", "allow", "sketch"),
+    [([115.5, -8.0], 90.5, LATE_FALL, 30, (30, 25), [60, -80]),
+     ([70, 0], 115, SLOW, 60, (56, 55.4), [30, 40])],  # the base circle goes round the pivot
+)  # fmt: skip
+def test_a_base_circle_between_others_that_do_not_do_is_found_for_a_swinging_follower(
+    pivot, bar, law, base, allow, sketch
+):
     made = graphkin.cam({
-        "frame": {"points": {"A": [10.2, 17.2], "C": [125.7, 9.2]}},
-        "links": {"1": {"points": ["A"]}, "2": {"points": ["C", "B"], "length": 90.5}},
-        "cams": {"1": {"follower": "2", "law": law, "sense": -1, "base": {"r": 30}, "allow": {"rise": 30, "fall": 25}}},
-        "sketch": {"B": [70, -63]}, "driver": {"link": "1", "angle": 0, "omega": 1},
+        "frame": {"points": {"A": [0, 0], "C": pivot}},
+        "links": {"1": {"points": ["A"]}, "2": {"points": ["C", "B"], "length": bar}},
+        "cams": {"1": {"follower": "2", "law": [*law, {"to": 360}], "sense": -1, "base": {"r": base},
+                       "allow": {"rise": allow[0], "fall": allow[1]}}},
+        "sketch": {"B": sketch}, "driver": {"link": "1", "angle": 0, "omega": 1},
     })["1"]  # fmt: skip
     assert made.wanted_base is not None
     kept = [study_cam(replace(made.cam, base=made.wanted_base * share)).ok for share in (0.99, 1 + 1e-6, 1.1)]
