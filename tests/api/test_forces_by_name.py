@@ -183,7 +183,10 @@ def test_two_cylinders_on_one_link_have_a_force_each():
     arms = [((at - b).conjugate() * u).imag for (at, _), u in zip(lines, units, strict=True)]
     _, at_b, at_c = np.linalg.solve([[u.real for u in units], [u.imag for u in units], arms], [0, 30, 0])
     assert [at_b * units[1], at_c * units[2]] == pytest.approx([solved["F_1@B"][0], solved["F_1@C"][0]])
-    assert graphkin.check(plate, find=["F_1@B", "F_1@C"]).ok
+    checked = graphkin.check(plate, find=["F_1@B", "F_1@C"])
+    assert checked.ok
+    # each stood in the polygon of accelerations too, and the handout ended in a traceback
+    assert {"v", "a", "an", "at", "ak", "ar"} >= {s.kind for drawn in checked.sheet.vectors.values() for s in drawn}
 
 
 def test_two_cylinders_on_one_pin_have_a_force_each():

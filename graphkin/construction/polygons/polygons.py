@@ -428,7 +428,7 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
     """Draw the asked vectors that are in no equation."""
     for symbol in asked:
         order: Order = "velocity" if symbol.kind == "v" else "acceleration"
-        if not symbol.is_vector or symbol.of is None or symbol in plot.drawn[order]:
+        if symbol.scope != "motion" or not symbol.is_vector or symbol.of is None or symbol in plot.drawn[order]:
             continue
         of, to = (node(plot.links, ref.point, ref.link) if ref and ref.link else ref for ref in (symbol.of, symbol.to))
         assert of is not None
