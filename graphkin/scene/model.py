@@ -647,7 +647,7 @@ def balance_of(mechanism: Mechanism, driver: Driver) -> Symbol:
     link 3 and others."""
     if driver.turns:
         return Symbol("M", link=driver.link)
-    pushing = [s for s in mechanism.slides if s.key in {d.key for d in mechanism.drivers if not d.turns}]
+    pushing = [s for s in mechanism.slides if s.key in {d.key for d in mechanism.drivers}]
     own = next(s for s in pushing if s.key == driver.key)
     others = [s.pin for s in pushing if s.body == own.body and s is not own]
     at = PointRef(own.pin, own.b if own.pin in others else "") if others and own.pin else None

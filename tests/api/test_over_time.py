@@ -1,6 +1,7 @@
 """Drivers that move by a law over the time."""
 
 import math
+import re
 
 import mpmath
 import numpy as np
@@ -273,6 +274,10 @@ def test_a_rate_grows_without_bound_where_a_law_leads_to_an_end_of_the_motion():
     nothing = {"value": None, "why": "it grows without bound there", "time": pytest.approx(end[1], rel=1e-9)}
     assert [nothing, nothing] == [outputs[rate]["least"] for rate in ("v_3/0", "a_3/0")]
     assert "v_3/0: grows without bound at 0.14928 s, greatest" in swept.text
+    # the chart shows nine tenths of the way, to -1090 mm/s; its least sample is -3.4e6
+    told = re.findall(r"<text[^>]*>([^<]*)", swept.figures["motion-slide-3-0"].content("svg").decode())
+    assert [", grows without bound at an end of the range"] == [text[6:] for text in told if text.startswith("(mm/s)")]
+    assert -1e5 < min(float(text.replace("−", "-")) for text in told if re.fullmatch(r"−?[\d.]+", text)) < -1090
     pieces = [{"to": 0.5, "rise": 90, "by": "uniform"}, {"to": 1, "fall": 90, "by": "uniform"}]
     scene["driver"]["law"] = {"from": 10, "pieces": pieces}
     there_and_back = graphkin.sweep(scene, positions=4).data["outputs"]

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import cmath
+import math
+
 import pytest
 
 import graphkin
@@ -100,3 +103,23 @@ def test_a_triangle_of_which_two_links_slide_on_each_other_is_drawn_as_it_is_sol
     })  # fmt: skip
     assert ["2/1"] == [t.pair.key for group in checked.sheet.structure.larger_groups for t in group.triangles]
     assert (True, True) == (checked.ok, checked.complete)
+
+
+def test_a_turn_of_a_crank_is_drawn_with_the_triangle_that_a_cylinder_holds() -> None:
+    # the cylinder holds J, 60 from B and from C, at one angle: a coupler BC of 90
+    sheet = draft(mechanism_of({
+        "frame": {"points": {"A": [0, 0], "D": [120, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30}, "7": {"points": ["D", "C"], "length": 90},
+            "2": {"points": ["B", "J"], "length": 60, "at": {"P": [50, 0]}},
+            "3": {"points": ["J", "C"], "length": 60, "at": {"Q": [10, 0]}},
+            "4": {"points": ["P"]}, "5": {"points": ["Q"], "on": "4"},
+        },
+        "driver": [{"link": "1", "angle": 60, "omega": 10}, {"slide": "5", "travel": 15, "velocity": 2}],
+        "sketch": {"B": [15, 26], "J": [60, 80], "C": [105, 90], "P": [52, 70], "Q": [68, 82]},
+        "find": ["swing_7"],
+    }))  # fmt: skip
+    # of the rocker in both limits from the frame
+    turned = [math.acos((120**2 + 90**2 - long**2) / (2 * 120 * 90)) for long in (90 - 30, 90 + 30)]
+    axes = [math.pi - cmath.phase(limit.poses["7"].axis) for limit in sheet.limits["7"]]
+    assert turned == pytest.approx(sorted(axes), abs=1e-9)

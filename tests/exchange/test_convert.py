@@ -495,6 +495,7 @@ MOVED = [("Circle", "A 2", "c"), ("Point", "c", "B"), ("Circle", "B 4.5", "d"), 
         (("Midpoint", "A D", "E"), {"0": "ADE", "AB": "AB", "BC": "BC", "DC": "DC"}),
         (("Midpoint", "B D", "E"), {"0": "AD", "AB": "AB", "BC": "BC", "DC": "DC"}),
         (("Point", "m", "E"), {"0": "AD", "AB": "AB", "BCE": "BCE", "DC": "DC"}),
+        (("Point", "n", "E"), {"0": "AD", "AB": "AB", "BC": "BC", "DC": "DC"}),  # of no body: it slides
     ],
 )
 def test_corners_midpoints_and_points_on_segments_of_geogebra_are_points_of_the_body_that_holds_them(
@@ -503,7 +504,7 @@ def test_corners_midpoints_and_points_on_segments_of_geogebra_are_points_of_the_
     corner = "E" in command[1] and command[0] == "Polygon"
     made = [("Circle", "B 3", "u"), ("Circle", "C 3", "w"), ("Intersect", "u w", "E")] if corner else []
     places = {"A": 0j, "B": 1 + 2j, "C": 5 + 4j, "D": 6 + 0j, "E": 3 + 6j}
-    save(tmp_path / "a.ggb", places, [*MOVED, ("Segment", "B C", "m"), *made, command])
+    save(tmp_path / "a.ggb", places, [*MOVED, ("Segment", "B C", "m"), ("Line", "B D", "n"), *made, command])
     assert bodies == {name: "".join(points) for name, points in read_bodies(str(tmp_path / "a.ggb")).bodies.items()}
 
 
