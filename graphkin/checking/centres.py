@@ -126,12 +126,9 @@ def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> 
     if strength <= NO_MOTION * largest:
         return None
     _, sine = wedge(normal(place), normal(centre.place))
-    # what rounding does to both grows as the relative motion gets small beside the motions themselves, and where a rate
-    # is measured over a short arm
+    # what rounding does to both grows as the relative motion gets small beside the motions themselves
     unit = centres.chart.unit / centres.mm
-    rates = centres.sheet.rates["omega"]
-    shortest = min([unit, *(rates[name].arm for name in centre.pair if name in rates and rates[name].arm)])
-    rounded = float(motion.bound.position[0]) / unit + float(motion.rates_in_double[0][0]) / (shortest * strength)
+    rounded = float(motion.bound.position[0]) / unit + float(motion.rates_in_double[0][0]) / (unit * strength)
     # as do the numbers of the file, where they lie far apart
     given = TOLERANCE + 1e-14 * largest / strength
     return sine, given + SAFETY * centre.error + (rounded if math.isfinite(rounded) else 0.0)

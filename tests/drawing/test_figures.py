@@ -374,4 +374,4 @@ def test_the_letter_of_the_guide_that_replaces_a_flat_face_stands_at_the_face() 
     parts = follower_figure("cam-flat-face", {"flat": True}, ["B"])
     (face,), letter = parts["follower-2"].children, text_box(parts["label-guide-2-f"])
     assert isinstance(face, Line)
-    assert min(abs(end - letter.centre) for end in (face.start, face.end)) < 5
+    assert min(abs(end - letter.centre) for end in (face.start, face.end)) < 2.5
