@@ -64,7 +64,7 @@ def smooth_course(quantity: Symbol, reach: DriverRange, motion: Motion) -> tuple
     """
     value, bound = course_of(quantity, reach, motion), _bound(quantity, motion)
     if quantity.entry.acute:
-        return np.asarray(-np.cos(2 * value)), 2 * bound
+        return np.asarray(-np.cos(2 * value)), bound
     if not quantity.is_position:
         value = np.where(np.abs(value) <= bound, 0.0, value)
     return (value**2, (2 * np.abs(value) + bound) * bound) if quantity.is_unsigned else (value, bound)

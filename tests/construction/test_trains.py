@@ -146,6 +146,8 @@ def test_a_rate_is_read_off_a_plan_that_is_shown_though_others_of_the_train_are_
     shown = [(plan.turning, plan.line(link).mm) for plan in sheet.trains if plan.order == "velocity"
              and plan.line(link) is not None and plan.line(link).reason == "plan"]  # fmt: skip
     assert [(step.per_mm, step.mm)] == shown
+    # a figure at other scales keeps the lengths of a plan
+    assert step.mm == sheet.rates["omega"][link].scaled(2.0).mm
 
 
 def test_a_wheel_on_a_carrier_that_is_found_later_has_the_rate_of_willis():

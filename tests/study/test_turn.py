@@ -15,10 +15,12 @@ import pytest
 import graphkin
 from graphkin.api.arguments import as_scene
 from graphkin.api.report_text import turn_text
+from graphkin.construction import draft
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range, structure_of
+from graphkin.solver.path.driver_range import extremes
 from graphkin.study.extremes import Extreme, Traced, trace
 from graphkin.study.quantities import course_of
 from graphkin.study.turn import Output, TurnStudy, four_bar_class, loops, study_turn
@@ -945,3 +947,29 @@ def test_a_slide_that_turns_back_once_as_far_as_it_is_followed_does_not_go_on_an
     # in the eight turns that are followed the wheel with 200 teeth turns by 288 degrees
     output = next(output for output in graphkin.sweep(scene, positions=4).data["outputs"] if "slide" in output)
     assert (60, None) == (pytest.approx(output["stroke"]), why) or output["why"].startswith(why)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_of_strokes_that_repeat_in_a_turn_that_after_the_crank_s_zero_counts_also_where_rounding_is_below_it(
+    sense: int,
+) -> None:
+    # a yoke that goes up and down as sin drives a slider, farthest out with the crank at 0 and at 180
+    scene = mechanism_of({
+        "frame": {
+            "points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}, "v": {"through": "A", "angle": 90}},
+        },
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30},
+            "2": {"points": ["C"], "on": "0.v", "guides": {"s": {"through": [0, 0], "angle": -90}}},
+            "4": {"points": ["C", "E"], "length": 80}, "5": {"points": ["E"], "on": "0.h"},
+        },
+        "pins": {"B": {"of": "1", "in": "2.s"}},
+        "driver": {"link": "1", "angle": 10, "omega": 10 * sense},
+        "sketch": {"C": [0, 20], "E": [75, 0]}, "find": ["K_5/0"],
+    })  # fmt: skip
+    found = extremes(reach := driver_range(scene), Symbol.parse("s_5/0"))
+    computed = np.exp(1j * reach.value(np.array([found.low_offset, found.high_offset])))
+    ((low, high),) = draft(scene).limits.values()
+    drawn = np.exp(1j * np.array([low.value, high.value]))
+    assert [1j * sense, 1.0] == pytest.approx(computed, abs=1e-9)
+    assert [1j * sense, 1.0] == pytest.approx(drawn, abs=1e-9)
