@@ -9,12 +9,12 @@ import pytest
 
 import graphkin
 from graphkin.api.classroom.audited import evidence_at
-from graphkin.checking.slip_likelihood import transcription_errors
+from graphkin.checking.slip_likelihood import Suspect, clearest, transcription_errors
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol, stated
 from graphkin.scene.tables import Units
-from graphkin.words import say
+from graphkin.words import Phrase, say
 from tests.command import run
 
 SIXBAR = "sixbar-guide-40deg"
@@ -107,6 +107,20 @@ def test_a_common_slip_is_called_by_its_name(values, name):
 )
 def test_a_wrong_sign_is_named_of_a_number_of_one_figure_too(scene, symbol, said):
     assert "sign" == judged(scene, **{symbol: said})["looks_like"]
+
+
+def test_a_slip_is_named_alone_where_a_second_of_its_kind_besides_has_no_effect():
+    # α₃ follows from ak_B@3/B@2 alone; both Coriolis terms left out give the same
+    assert "Coriolis left out (ak_B@3/B@2)" == judged(SIXBAR, alpha_3="15.079")["looks_like"]
+
+
+@pytest.mark.parametrize(
+    ("count", "named"), [(1, "sign"), (3, "sign or other assembly or half the right value"), (4, None)]
+)
+def test_of_slips_that_fit_equally_all_are_named_unless_they_are_many(count, named):
+    phrases = [Phrase(f"slip {key}") for key in ("sign", "assembly", "half", "double")]
+    best = clearest([(Suspect(phrase, 1.0, 0.1), 1.0) for phrase in phrases[:count]], chance=0.1)
+    assert named == (best and str(best.phrase).partition(" (")[0])
 
 
 def test_the_normal_term_alone_is_known_where_the_image_gave_the_point():
