@@ -96,10 +96,10 @@ def lengths_measured(
         if pushed is not None:
             driver, far = pushed
             value = f"{printed(as_given(far / sheet.scene.units.metres))} {sheet.scene.units.length}"
-            told = sign("s", slide_index(sheet, driver.key)) + f" = {value}"
+            length = sign("s", slide_index(sheet, driver.key)) + f" = {value}"
         else:
-            told = RichText(times_scale(sheet, "mechanism", sheet.arm_mm((one, other)) or 0.0))
-        yield step_number, (one, other), letters.length((one, other)) + " = " + told
+            length = RichText(times_scale(sheet, "mechanism", sheet.arm_mm((one, other)) or 0.0))
+        yield step_number, (one, other), letters.length((one, other)) + " = " + length
 
 
 def _bars_of(step: Step, images: bool) -> Iterator[tuple[str, str]]:

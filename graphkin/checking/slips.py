@@ -281,14 +281,14 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
 
 
 def _slipped(slips: Sequence[Slipped], symbol: Symbol, exact: Value) -> Iterator[Suspect]:
-    """The values of a symbol with each slip that changes it; one made in more places to no effect is not told."""
-    told = list[tuple[str, Value]]()
+    """The values of a symbol with each slip that changes it; one made in more places to no effect is left out."""
+    given = list[tuple[str, Value]]()
     for phrase, share, values in slips:
         value = values(symbol)
         if value is None or abs(value - exact) <= 1e-6 * abs(exact):
             continue
-        if not any(key == phrase.key and abs(value - other) <= 1e-6 * abs(value) for key, other in told):
-            told.append((phrase.key, value))
+        if not any(key == phrase.key and abs(value - other) <= 1e-6 * abs(value) for key, other in given):
+            given.append((phrase.key, value))
             yield Suspect(phrase, value, share)
 
 

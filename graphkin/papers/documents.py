@@ -217,12 +217,12 @@ def task(lesson: Lesson) -> Iterator[Paragraph]:
 def coincident_points(lesson: Lesson) -> Iterator[Paragraph]:
     """The meaning of the asked points that are told apart by their link, ``B_3``."""
     ends = (ref for symbol in lesson.questions for ref in (symbol.of, symbol.to) if ref is not None)
-    told = dict.fromkeys(
+    points = dict.fromkeys(
         Phrase("coincident point", point=ref, link=link, place=PointNames((ref.point,)))
         for ref in ends if (link := ref.link or lesson.letters.blocks.get(ref.point))
     )  # fmt: skip
-    if told:
-        yield Paragraph(lesson.sentence(joined("listed", told)))
+    if points:
+        yield Paragraph(lesson.sentence(joined("listed", points)))
 
 
 def given(lesson: Lesson) -> Iterator[Paragraph]:
