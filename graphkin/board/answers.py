@@ -253,8 +253,8 @@ def _keep(shelf: Shelf, asked: Message) -> Answer:
         slide = next((pair.key for pair in scene.slidings if pair.a == name and not pair.of), "")
         start = motion.slide(slide)[0][0] / scene.units.metres if slide else math.degrees(motion.angle(name)[0])
         changes[f"links.{name}.start"] = float(f"{start:.10g}")
-    spots = {p: [float(f"{z[c]:.6g}") for c in "xy"] for p, z in points.items() if isinstance(z, dict)}
-    for table in ("sketch", "drawn"):
+    for table, figures in (("sketch", 6), ("drawn", 10)):  # lengths are taken from what is drawn
+        spots = {p: [float(f"{z[c]:.{figures}g}") for c in "xy"] for p, z in points.items() if isinstance(z, dict)}
         changes |= {f"{table}.{p}": spots[p] for p in raw.get(table, {}) if p in spots}
     return {"text": changed(asked.text, changes)}
 
