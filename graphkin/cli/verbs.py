@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 # -- drawings ----------------------------------------------------------------------------------------------------------
 
-UNCHECKED = {"instrument": "exact", "ok": False, "status": "", "why": "", "readings": []}
+UNCHECKED = {"ok": False, "status": "", "why": "", "readings": []}
 """What a program reads where there is nothing to check."""
 
 
@@ -53,7 +53,7 @@ def check(given: Given) -> None:
     from graphkin.files import write_files
 
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
-    with answering(UNCHECKED):
+    with answering({"instrument": given.instrument, **UNCHECKED}):
         checked = given.call(graphkin.check)
     language = given.lang or checked.mechanism.question.sheet.language
     if given.out is not None:
@@ -104,7 +104,7 @@ def draw(given: Given) -> None:
     from graphkin.api.arguments import known_words
 
     known_words(given.formats, text=given.text)
-    with answering(UNCHECKED):
+    with answering({"instrument": given.instrument, **UNCHECKED}):
         drawn = given.call(graphkin.draw)
         paths = drawn.write(given.out, given.formats, given.text)
     complain(*(Problem(f"figure {name}", why) for name, why in drawn.not_drawn.items()))

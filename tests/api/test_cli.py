@@ -250,9 +250,10 @@ def test_a_truss_is_refused_as_immobile(tmp_path):
     omega = 1
     """
     (tmp_path / "truss.toml").write_text(text)
-    done = run("check", "truss.toml", cwd=tmp_path)
+    done = run("check", "truss.toml", "--instrument", "pencil", "--json", cwd=tmp_path)
     assert 3 == done.returncode
     assert "mobility" in done.stderr
+    assert "pencil" == json.loads(done.stdout)["instrument"]
 
 
 NO_DRIVER = '[frame]\npoints = { A = [0, 0] }\n[links.1]\npoints = ["A", "B"]\nlength = 80\n'
