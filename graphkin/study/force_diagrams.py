@@ -32,7 +32,7 @@ JUMP = 1e-8
 GROWS = 50.0
 """Beside the samples next to an end of the motion, and of a hundred times nearer to a place inside: what grows more
 there goes away without bound."""
-BESIDE = np.array([1e-5, 1e-3])
+BESIDE = np.array([1e-5, 1e-4, 1e-3])
 """Of the range: so far beside a place inside it is seen whether a force grows without bound there."""
 UNKNOWN_HERE = 1e-5
 """Of the range: an extreme this near to a sample without forces stands there."""
@@ -171,8 +171,10 @@ def _away_inside(
         known.append(place)
         beside = place + np.outer([-1.0, 1.0], BESIDE) * (high - low)
         beside = (beside - low) % (high - low) + low if axis.reach.full else np.clip(beside, low, high)
-        nearer, farther = axis.values(quantity, beside.ravel()).reshape(beside.shape).T
-        for value in nearer[np.abs(nearer) > GROWS * np.abs(farther)].tolist():
+        nearer, between, farther = axis.values(quantity, beside.ravel()).reshape(beside.shape).T
+        # where a load begins the force is more too, but does not grow on
+        usual = GROWS * np.maximum(np.abs(farther), 0.1 * np.abs(between))
+        for value in nearer[np.abs(nearer) > usual].tolist():
             yield place, math.copysign(1.0, value)
 
 

@@ -204,9 +204,10 @@ def test_a_force_that_grows_without_bound_is_shown_where_most_of_the_way_lies(tm
     assert "极大值" not in re.sub("<[^>]*>", "", svg)
 
 
-def test_a_force_that_is_the_same_everywhere_has_one_greatest_value_and_no_least():
+def pushed_along_a_guide(**load):
+    """A slider on a guide, which bars hold between -57.8695 and 345.605 mm, with a load at 75 degrees to the guide."""
     guide = {"through": [0, 0], "angle": 37}
-    scene = {
+    return {
         "frame": {"name": "0", "points": {"D": [150, 40]}, "guides": {"h": guide}},
         "links": {
             "1": {"points": ["B"], "on": "0.h"},
@@ -215,10 +216,22 @@ def test_a_force_that_is_the_same_everywhere_has_one_greatest_value_and_no_least
         },
         "driver": {"slide": "1", "travel": 50, "velocity": 50},
         "sketch": {"C": [120, 120]},
-        "loads": {"P": {"on": "1", "at": "B", "force": 57.3, "angle": 112}},
+        "loads": {"P": {"on": "1", "at": "B", "force": 57.3, "angle": 112} | load},
     }
-    told = graphkin.sweep(scene, positions=6).text
+
+
+def test_a_force_that_is_the_same_everywhere_has_one_greatest_value_and_no_least():
+    told = graphkin.sweep(pushed_along_a_guide(), positions=6).text
     assert "F_0/1 (N): maximum 55.3475 @ -57.8676 mm\n" in told
+
+
+@pytest.mark.parametrize("driver", [[330, 400], [-100, -40]])
+def test_a_load_that_begins_near_an_end_of_the_motion_grows_nowhere_without_bound(driver):
+    # of a load near the upper end it was said that the driving force grows without bound where it begins
+    scene = pushed_along_a_guide(when={"driver": driver})
+    forces = graphkin.sweep(scene, positions=6, find=["F_1", "F_0/1"]).data["forces"]
+    parts = 57.3 * math.cos(math.radians(75)), 57.3 * math.sin(math.radians(75))
+    assert parts == pytest.approx(tuple(forces[name]["extremes"][0]["value"] for name in ("F_1", "F_0/1")))
 
 
 def test_every_place_within_a_turn_towards_which_a_force_grows_without_bound_is_named():
