@@ -374,6 +374,8 @@ def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
 def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     alike = [(o, v) for o, v in case.others.items() if o != symbol and _sort(o) == _sort(symbol)]
     for other, value in alike:
+        if symbol.kind == "a" and other.kind in PARTS and other.of == symbol.of:
+            continue  # it is named as a component
         relative = symbol.to is None and other.to is not None and other.of is not None and symbol.of is not None
         if relative and other.of and symbol.of and other.of.point == symbol.of.point and other.kind == symbol.kind:
             yield Suspect(Phrase("slip relative", name=str(other)), value, 0.08)

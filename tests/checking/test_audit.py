@@ -125,6 +125,8 @@ def test_of_slips_that_fit_equally_all_are_named_unless_they_are_many(count, nam
 
 def test_the_normal_term_alone_is_known_where_the_image_gave_the_point():
     assert "normal term only (an_B/O4)" == judged("shaper-scheme-2", a_B="317.3")["looks_like"]
+    # a component that stands in the polygon is not told a second time as another quantity
+    assert "normal term only (an_C/B)" == judged("slider-crank-offset", a_C="3938.9")["looks_like"]
 
 
 def test_what_follows_from_an_earlier_wrong_value_is_told_with_it():
