@@ -222,7 +222,7 @@ def coincident_points(lesson: Lesson) -> Iterator[Paragraph]:
         for ref in ends if (link := ref.link or lesson.letters.blocks.get(ref.point))
     )  # fmt: skip
     if points:
-        yield Paragraph(lesson.sentence(joined("listed", points)))
+        yield Paragraph(lesson.sentence(joined("list comma of two", points)))
 
 
 def given(lesson: Lesson) -> Iterator[Paragraph]:
