@@ -240,8 +240,9 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
         laws = ((each, Phrase("given cam", link=cam.link, law=Neutral(cam_given(scene.whole, cam, each))))
                 for each in languages(language))  # fmt: skip
         yield Paragraph(tuple((each, whole_sentence(rich_text(law, each), each)) for each, law in laws))
-        for centre in scene.by_name[cam.link].points.keys() - scene.whole.by_name[cam.link].points.keys():
-            yield Paragraph(lesson.sentence(Phrase("centre of cam", point=PointNames((centre,)), link=cam.link)))
+        for point in scene.by_name[cam.link].points:
+            if point not in scene.whole.by_name[cam.link].points:
+                yield Paragraph(lesson.sentence(Phrase("centre of cam", point=PointNames((point,)), link=cam.link)))
     yield from _formulas(lesson, "driver", [*given_drivers(lesson.sheet, letters), *_speeds(scene)])
     for sense in _senses(scene):
         yield Paragraph(lesson.sentence(sense))
