@@ -89,9 +89,9 @@ def race(scene: Mechanism, repeats: int, count: int = COUNT) -> Race:
             entries += _peer(name, work, repeats)
         except Skipped as why:
             skipped.append((name, why.why))
-    by_hand = acts(plan(scene, work.at(0), ()), "acceleration")
+    _, by_hand = acts(plan(scene, work.positions[0], ()))
     return Race(
-        scene, tuple(entries), copy_time(work, repeats), by_hand, repeats, work.count, len(work.values),
+        scene, tuple(entries), copy_time(work, repeats), by_hand, repeats, work.count, len(work.rows),
         this_machine(), tuple(skipped), work.asked,
     )  # fmt: skip
 
@@ -123,17 +123,12 @@ def to_json(race: Race) -> dict[str, Json]:
     return {
         "scene": race.scene.name,
         "machine": {"cores": cores, "processor": processor, "versions": dict(versions)},
-        "repeats": race.repeats,
-        "positions": race.count,
-        "places": race.places,
+        "repeats": race.repeats, "positions": race.count, "places": race.places,
         "copying_s": list(race.copying),
         "asked": [str(s) for s in race.asked],
         "methods": [
             {
-                "method": e.key,
-                "tag": e.tag,
-                "family": e.family,
-                "says": word("differences of" if e.key == "differences" else e.key),
+                "method": e.key, "tag": e.tag, "family": e.family, "says": _named(e, "en"),
                 "velocity": {"cost_s": e.velocity_cost, "error": e.velocity_error},
                 "acceleration": {"cost_s": e.acceleration_cost, "error": e.acceleration_error},
             }
@@ -205,15 +200,8 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
     """The conclusions from the entries on drawing and computing accelerations: every number is one of theirs, or a
     quotient."""
 
-    def error(entry: Entry) -> str:
-        error = max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0)
-        return f"{error:.1g}"
-
     def times(entry: Entry, of: Entry) -> str:
         return f"{entry.acceleration_cost / of.acceleration_cost:.3g}"
-
-    def percent(entry: Entry) -> str:
-        return f"{100 * max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0):.2g}"
 
     hands = sorted((e for e in race.entries if e.key == "by hand"), key=lambda e: float(e.tag))
     drawn, closed = race.of("exact drawing"), race.of("closed arrays")
@@ -221,13 +209,13 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
     if hands:
         usual, large = next((e for e in hands if e.tag == "1"), hands[0]), hands[-1]
         phrases.append(Phrase(
-            "speed lesson draw", minutes=f"{usual.acceleration_cost / 60:.2g}", error=percent(usual), size=usual.tag,
-            large_error=percent(large), large_size=large.tag, exact_time=f"{1e3 * drawn.acceleration_cost:.2g}",
-            exact_error=error(drawn),
+            "speed lesson draw", minutes=f"{usual.acceleration_cost / 60:.2g}", error=f"{100 * usual.error:.2g}",
+            size=usual.tag, large_error=f"{100 * large.error:.2g}", large_size=large.tag,
+            exact_time=f"{1e3 * drawn.acceleration_cost:.2g}", exact_error=f"{drawn.error:.1g}",
         ))  # fmt: skip
-    phrases.append(Phrase("speed lesson compute", times=times(closed, drawn), error=error(closed)))
+    phrases.append(Phrase("speed lesson compute", times=times(closed, drawn), error=f"{closed.error:.1g}"))
     steps = [e for e in race.entries if e.key == "differences"]
-    newton = min((e for e in race.entries if e.key == "Newton"), key=lambda e: float(error(e)), default=None)
+    newton = min((e for e in race.entries if e.key == "Newton"), key=lambda e: float(f"{e.error:.1g}"), default=None)
     if steps and newton is not None:
         single = race.of("closed single")
         best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)
@@ -235,7 +223,7 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
         phrases.append(Phrase(
             "speed lesson lose", times=times(steps[0], closed),
             velocity=f"{best[0]:.1g}", acceleration=f"{best[1]:.1g}", single_times=times(single, closed),
-            single_error=error(single), newton_times=times(newton, closed), newton_error=error(newton),
+            single_error=f"{single.error:.1g}", newton_times=times(newton, closed), newton_error=f"{newton.error:.1g}",
         ))  # fmt: skip
     return tuple(phrases)
 
@@ -299,15 +287,16 @@ def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]
         return rich_text(asked, language)
     if not entry.tag:
         return word(entry.key, language)
-    name = word("differences of" if entry.key == "differences" else entry.key, language)
-    first = next(p[0] for p in points if p[0].key == entry.key)
-    number = _number(entry.tag)
-    if entry is first:
-        return f"{name} {number}"
-    if entry.family in NUMBERED:
-        return number if entry.tag in NUMBERED[entry.family] else ""
-    last = [p[0] for p in points if p[0].key == entry.key][-1]
-    return number if entry is last else ""
+    of_curve, number = [e for e, _, _ in points if e.key == entry.key], _number(entry.tag)
+    if entry is of_curve[0]:
+        return f"{_named(entry, language)} {number}"
+    numbered = entry.tag in NUMBERED[entry.family] if entry.family in NUMBERED else entry is of_curve[-1]
+    return number if numbered else ""
+
+
+def _named(entry: Entry, language: str) -> str:
+    """The name of a method."""
+    return word("differences of" if entry.key == "differences" else entry.key, language)
 
 
 def _written(symbol: Symbol) -> RichText:

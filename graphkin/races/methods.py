@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
@@ -15,7 +15,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.construction import EXACT, Instrument, Plan, Scales, cad, execute, pencil, plan
+from graphkin.construction import EXACT, Instrument, Plan, Scales, Sheet, cad, execute, pencil, plan
 from graphkin.construction.centres import find_centres
 from graphkin.races.work import Entry, Work, best_time, point_rates
 from graphkin.scene.symbol import Symbol
@@ -142,10 +142,8 @@ def whole_solve(work: Work, repeats: int) -> Iterator[Entry]:
         return
     count = work.count // 10
     whole = best_time(lambda: solver.solve(work.scene, sweep=count), repeats) / count
-    motion = solver.solve(work.scene, sweep=len(work.motion))
-    at = [int(np.argmin(np.max(np.abs(motion.values - v), axis=1))) for v in work.values]
-    v = np.array([motion.velocity(o.point, o.link)[at] for o in work.outputs])
-    a = np.array([motion.acceleration(o.point, o.link)[at] for o in work.outputs])
+    v = np.array([work.motion.velocity(o.point, o.link)[work.rows] for o in work.outputs])
+    a = np.array([work.motion.acceleration(o.point, o.link)[work.rows] for o in work.outputs])
     yield Entry("closed", "whole solve", "", whole, whole, *work.errors(v, a))
 
 
@@ -161,8 +159,7 @@ class Numeric:
         drivers = work.scene.drivers
         self.first, self.second = [d.values[1] for d in drivers], [d.values[2] for d in drivers]
         self.values = [work.values[:, k] for k in range(len(drivers))]
-        at = [int(np.argmin(np.max(np.abs(work.motion.values - v), axis=1))) for v in work.values]
-        before = self.equations.start(work.motion)[:, at]
+        before = self.equations.start(work.motion)[:, work.rows]
         # of a limited motion a step that stays inside it: its ends are left out by twice as much
         step = COMING if work.full else float(np.ptp(work.values[:, 0])) / 48
         earlier = [self.values[0] - math.copysign(step, self.first[0]), *self.values[1:]]
@@ -258,8 +255,8 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
 
 def drawn(work: Work, repeats: int) -> Iterator[Entry]:
     """The whole construction with each instrument, and the exact construction of the asked quantities alone."""
-    kept, few = work.some(EVERY)
-    plans = [plan(work.scene, work.at(k), ()) for k in kept]
+    few = work.some(EVERY)
+    plans = [plan(work.scene, at, ()) for at in few.positions]
     yield _drawn(few, plans, "exact drawing", "", [EXACT], repeats)
     yield _drawn(few, plans, "cad drawing", "", [cad()], repeats)
     tools = work.scene.question.sheet.tools
@@ -268,11 +265,10 @@ def drawn(work: Work, repeats: int) -> Iterator[Entry]:
         hands: list[Instrument] = [pencil(tools, seed) for seed in range(SEEDS)]
         entry = _drawn(few, larger, "pencil", f"{factor:g}", hands, repeats)
         yield entry
-        quick, whole = (acts(larger[0], order) * SECONDS for order in ("velocity", "acceleration"))
+        quick, whole = (count * SECONDS for count in acts(larger[0]))
         yield replace(entry, family="by hand", key="by hand", velocity_cost=quick, acceleration_cost=whole)
     asked = few.only(few.asked_outputs())
-    symbols = [Symbol(kind, o.ref) for o in asked.outputs for kind in ("v", "a")]
-    short = [plan(work.scene, work.at(k), symbols) for k in kept]
+    short = [plan(work.scene, at, columns_of(asked)) for at in few.positions]
     yield _drawn(asked, short, "exact drawing", "asked", [EXACT], repeats)
 
 
@@ -281,54 +277,51 @@ def _larger(planned: Plan, factor: float) -> Plan:
     return replace(planned, scales=Scales(s.length / factor, s.velocity / factor, s.acceleration / factor))
 
 
-def acts(planned: Plan, order: str) -> int:
-    """The number of acts of the hand in drawing a plan and reading it off, for velocities alone or with
+def acts(planned: Plan) -> tuple[int, int]:
+    """The number of acts of the hand in drawing a plan and reading it off, for velocities alone and with
     accelerations."""
     hand = pencil(planned.structure.scene.question.sheet.tools, 0)
     sheet = execute(planned, hand)
     read_off(sheet, (), hand)
-    share = 1.0
-    if order == "velocity":
-        share = sum(s.diagram != "acceleration" for s in sheet.steps) / len(sheet.steps)
-    return round(hand.acts * share)
+    return round(hand.acts * _velocity_share(sheet)), hand.acts
+
+
+def _velocity_share(sheet: Sheet) -> float:
+    """The part of the steps that velocities alone need."""
+    return sum(s.diagram != "acceleration" for s in sheet.steps) / len(sheet.steps)
 
 
 def _drawn(work: Work, plans: Sequence[Plan], key: str, tag: str, hands: Sequence[Instrument], repeats: int) -> Entry:
     """The entry of a drawn plan with the largest errors of some hands."""
     worst: list[float | None] = [0.0, 0.0]
     for hand in hands:
-        tables = [{r.symbol: complex(r.value) for r in read_off(execute(p, hand), (), hand)} for p in plans]
-        errors = work.errors(*(_vectors_of(work, tables, kind) for kind in ("v", "a")))
+        tables = [{r.symbol: r.value for r in read_off(execute(p, hand), (), hand)} for p in plans]
+        rows = ([[table.get(Symbol(kind, o.ref)) for table in tables] for o in work.outputs] for kind in "va")
+        errors = work.errors(*map(_if_all, rows))
         worst = [None if w is None or e is None else max(w, e) for w, e in zip(worst, errors, strict=True)]
     whole = best_time(lambda: [read_off(execute(p, hands[0]), (), hands[0]) for p in plans], repeats) / len(plans)
-    steps = execute(plans[0], EXACT).steps
-    part = sum(s.diagram != "acceleration" for s in steps) / len(steps)
+    part = _velocity_share(execute(plans[0], EXACT))
     return Entry("drawn", key, tag, whole * part, whole, worst[0], worst[1])
-
-
-def _vectors_of(work: Work, tables: Sequence[Mapping[Symbol, complex]], kind: str) -> Array | None:
-    """Vectors of a kind, "v" or "a", of all outputs at all places; None where one is missing."""
-    nothing = complex(math.nan)
-    rows = np.array([[table.get(Symbol(kind, o.ref), nothing) for table in tables] for o in work.outputs])
-    return None if np.isnan(rows).any() else rows
 
 
 def instant_centres(work: Work, repeats: int) -> Iterator[Entry]:
     """Velocities by centres, found on the drawn position; they give no accelerations."""
-    kept, few = work.some(EVERY)
-    sheets = [execute(plan(work.scene, work.at(k), ())) for k in kept]
-    tables: list[dict[Symbol, complex]] = []
-    for sheet in sheets:
-        centres = find_centres(work.scene, sheet.drivers, sheet=sheet)
-        velocities = {(s := Symbol("v", o.ref)): centres.velocity(s) for o in few.outputs}
-        tables.append({s: complex(v) for s, v in velocities.items() if v is not None})
-    error = few.errors(_vectors_of(few, tables, "v"), None)[0]
+    few = work.some(EVERY)
+    sheets = [execute(plan(work.scene, at, ())) for at in few.positions]
+    found = [find_centres(work.scene, sheet.drivers, sheet=sheet) for sheet in sheets]
+    velocities = [[centres.velocity(Symbol("v", o.ref)) for centres in found] for o in few.outputs]
+    error = few.errors(_if_all(velocities), None)[0]
     if error is None:
         return
     cost = best_time(
         lambda: [find_centres(work.scene, sheet.drivers, sheet=sheet).turning for sheet in sheets], repeats
     ) / len(sheets)
     yield Entry("drawn", "instant centres", "", cost, cost, error, None)
+
+
+def _if_all(vectors: Sequence[Sequence[complex | float | None]]) -> Array | None:
+    """Vectors as an array; None where one is missing."""
+    return None if any(v is None for row in vectors for v in row) else np.array(vectors, complex)
 
 
 METHODS: tuple[Callable[[Work, int], Iterator[Entry]], ...] = (

@@ -11,7 +11,7 @@ import platform
 import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib import metadata
 from typing import TYPE_CHECKING, Literal
 
@@ -82,49 +82,47 @@ def point_rates(equations: Equations, solution: Solution, outputs: Sequence[Comp
 class Work:
     """A scene, the positions at which errors are taken, and the true values there.
 
-    values : driver values, shape (places, drivers)
+    motion : the solver's, at fine steps
+    rows : the places, by their indices in the motion
+    truth : velocities and accelerations, numbers of mpmath of 50 digits, of shape (2, outputs, places)
     count : positions in a timed run, for methods that compute many at once
     full : whether the driver turns fully
-    velocity, acceleration : numbers of mpmath of 50 digits, of shape (outputs, places)
-    motion : the solver's, at the places
     """
 
     structure: Structure
     outputs: tuple[ComparedPoint, ...]
-    values: Array
+    motion: Motion
+    rows: Array
+    truth: Array
     count: int
     full: bool
-    velocity: Array
-    acceleration: Array
-    motion: Motion
 
     @property
     def scene(self) -> Mechanism:
         return self.structure.scene
 
+    @property
+    def values(self) -> Array:
+        """Driver values, shape (places, drivers)."""
+        return self.motion.values[self.rows]
+
+    @property
+    def positions(self) -> list[dict[str, float]]:
+        """Driver values of each place by the driver's key."""
+        return [{d.key: float(v) for d, v in zip(self.scene.drivers, row, strict=True)} for row in self.values]
+
     def errors(self, velocity: Array | None, acceleration: Array | None) -> tuple[float | None, float | None]:
         """The largest errors of vectors of shape (outputs, places), in parts of the largest value; None for None."""
-        return _error(self.velocity, velocity), _error(self.acceleration, acceleration)
+        return _error(self.truth[0], velocity), _error(self.truth[1], acceleration)
 
-    def some(self, every: int) -> tuple[list[int], Work]:
-        """Every n-th of the places, with their indices."""
-        kept = list(range(0, len(self.values), every))
-        return kept, self._only(kept, range(len(self.outputs)))
+    def some(self, every: int) -> Work:
+        """Every n-th of the places alone."""
+        return replace(self, rows=self.rows[::every], truth=self.truth[:, :, ::every])
 
     def only(self, outputs: Sequence[ComparedPoint]) -> Work:
         """Some of the outputs alone."""
-        return self._only(range(len(self.values)), [self.outputs.index(o) for o in outputs])
-
-    def _only(self, places: Sequence[int], outputs: Sequence[int]) -> Work:
-        at = np.ix_(list(outputs), list(places))
-        return Work(
-            self.structure, tuple(self.outputs[k] for k in outputs), self.values[list(places)], self.count, self.full,
-            self.velocity[at], self.acceleration[at], self.motion,
-        )  # fmt: skip
-
-    def at(self, place: int) -> dict[str, float]:
-        """Driver values of a place by the driver's key."""
-        return {d.key: float(v) for d, v in zip(self.scene.drivers, self.values[place], strict=True)}
+        kept = [self.outputs.index(o) for o in outputs]
+        return replace(self, outputs=tuple(outputs), truth=self.truth[:, kept])
 
     @property
     def asked(self) -> tuple[Symbol, ...]:
@@ -141,11 +139,8 @@ class Work:
         """The asked outputs: points, or points of links whose turning is asked for."""
         refs = {ref for s in self.asked for ref in (s.of, s.to) if ref is not None}
         turning = {s.link for s in self.asked if s.link}
-        asked = [
-            o for o in self.outputs
-            if o.ref in refs or (o.link in turning and o.own)
-        ]  # fmt: skip
-        return tuple(asked or self.outputs)
+        asked = tuple(o for o in self.outputs if o.ref in refs or (o.link in turning and o.own))
+        return asked or self.outputs
 
 
 def _error(right: Array, measured: Array | None) -> float | None:
@@ -185,22 +180,14 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
     margin = 0 if full else len(good) // 24  # ends of a motion are dead points, which are another study
     inner = good[margin : len(good) - margin] if margin else good
     picked = inner[np.linspace(0, len(inner), min(PLACES, len(inner)), endpoint=False).astype(int)]
-    values = fine.values[picked]
-    velocity, acceleration = _truth(structure, outputs, fine, picked, mp)
-    return Work(structure, outputs, values, count, full, velocity, acceleration, fine)
-
-
-def _truth(
-    structure: Structure, outputs: Sequence[ComparedPoint], motion: Motion, picked: Array, mp: MPContext
-) -> tuple[Array, Array]:
     equations = reference(structure, mp)
-    start = equations.start(motion)
-    rates = [d.values[1] for d in structure.scene.drivers], [d.values[2] for d in structure.scene.drivers]
+    start = equations.start(fine)
+    rates = [d.values[1] for d in scene.drivers], [d.values[2] for d in scene.drivers]
     solutions = (
-        refined(equations, mp, list(start[:, k]), [mp.mpf(float(v)) for v in motion.values[k]], *rates) for k in picked
+        refined(equations, mp, list(start[:, k]), [mp.mpf(float(v)) for v in fine.values[k]], *rates) for k in picked
     )
-    both = np.array([point_rates(equations, solution, outputs) for solution in solutions], dtype=object)
-    return both[:, 0].T, both[:, 1].T
+    truth = np.array([point_rates(equations, solution, outputs) for solution in solutions], dtype=object)
+    return Work(structure, outputs, fine, picked, truth.transpose(1, 2, 0), count, full)
 
 
 # -- a measurement: what a method costs and how far it is off, and the machine it was made on --------------------------
@@ -229,6 +216,11 @@ class Entry:
     acceleration_cost: float
     velocity_error: float | None
     acceleration_error: float | None
+
+    @property
+    def error(self) -> float:
+        """The larger of its errors, 0 where it gives none."""
+        return max(self.velocity_error or 0.0, self.acceleration_error or 0.0)
 
 
 class Skipped(Exception):
