@@ -8,7 +8,7 @@ from pathlib import Path
 
 from graphkin.errors import CallError
 from graphkin.exchange.bodies import FRAME, Bodies, BodySlide
-from graphkin.exchange.constructions import read_geogebra
+from graphkin.exchange.constructions import LARGEST, read_geogebra
 from graphkin.exchange.joint_lists import is_address, read_address, read_pyslvs, read_table, write_pyslvs
 from graphkin.exchange.linkages import read_linkage2, read_pylinkage, write_linkage2, write_pylinkage
 from graphkin.files import opened
@@ -16,7 +16,6 @@ from graphkin.words import from_others, listed
 
 __all__ = ["FRAME", "READ", "Bodies", "BodySlide", "is_address", "read_bodies", "write_bodies"]
 
-LARGEST = 20_000_000
 READ = (".linkage2", ".pyslvs", ".json", ".ggb", ".txt", ".csv", ".tsv", ".url")
 """Endings of files that are read; a shared link of PMKS+ may stand instead of a file."""
 WRITTEN: Mapping[str, Callable[[Bodies], str]] = {

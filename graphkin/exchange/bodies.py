@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 
 from graphkin.errors import CallError
@@ -122,24 +122,26 @@ class Bodies:
         moving = [name for name in self.bodies if name != FRAME]
         if not moving:
             raise CallError.of(self.title, "holds no moving link", "draw one link at least")
-        shift, tables = self._lines()
-        frame: dict[str, Json] = {"name": FRAME}
-        frame["points"] = {p: _pair(self.places[p]) for p in self.bodies.get(FRAME, ())}
-        if shift.get(FRAME):
-            frame["guides"] = {
-                name: {"through": _pair(line.through), "angle": _degrees(line.angle)}
-                for name, line in shift[FRAME].items()
-            }
-        links = {name: self._link(name, shift.get(name, {})) for name in moving}
-        pins: dict[str, Json] = {}
-        for line, ref in tables:
-            if line.turns:
-                pins[line.point] = {"of": line.body, "in": ref}
-            else:
-                links[line.body] |= self._on(line, ref, links[line.body])
-        joints = {point for point in self.places if len(self.having(point)) > 1}
-        joints |= {line.point for line in self.slides}
         fixed = self.bodies.get(FRAME, [])
+        frame: dict[str, Json] = {"name": FRAME, "points": {p: _pair(self.places[p]) for p in fixed}}
+        links = {name: self._link(name) for name in moving}
+        guides: dict[str, dict[str, Json]] = {}  # of each body by their names
+        refs = []
+        for slide in self.slides:
+            (origin, axis), names = self._axis(slide.on), guides.setdefault(slide.on, {})
+            name, angle = f"s{len(names) + 1}", _degrees(slide.angle - cmath.phase(axis))
+            names[name] = {"through": _pair((slide.through - origin) / axis), "angle": angle}
+            refs.append(f"{slide.on}.{name}")
+        for on, names in guides.items():
+            (frame if on == FRAME else links[on])["guides"] = names
+        pins: dict[str, Json] = {}
+        for slide, ref in zip(self.slides, refs, strict=True):
+            if slide.turns:
+                pins[slide.point] = {"of": slide.body, "in": ref}
+            else:
+                links[slide.body] |= self._on(slide, ref, links[slide.body])
+        joints = {point for point in self.places if len(self.having(point)) > 1}
+        joints |= {slide.point for slide in self.slides}
         sketch = {p: _pair(z) for p, z in self.places.items() if p in joints and p not in fixed}
         made: dict[str, Json] = {"title": self.title, "units": {"length": self.unit}, "frame": frame, "links": links}
         if pins:
@@ -195,25 +197,14 @@ class Bodies:
                 self.lost.append(Phrase("lost driver of", link=body))
                 del self.drives[body, point]
 
-    def _lines(self) -> tuple[dict[str, dict[str, BodySlide]], list[tuple[BodySlide, str]]]:
-        """The lines of each body by their names, and with each slide the name of its line."""
-        lines: dict[str, dict[str, BodySlide]] = {}
-        refs = []
-        for slide in self.slides:
-            names = lines.setdefault(slide.on, {})
-            name = f"s{len(names) + 1}"
-            names[name] = slide
-            refs.append((slide, f"{slide.on}.{name}"))
-        return lines, refs
-
     def _axis(self, name: str) -> tuple[complex, complex]:
         """Origin and direction of a body's own axes."""
-        ends, _ = self._ordered(name)
+        ends = [] if name == FRAME else self._ordered(name)[0]
         origin = self.places[ends[0]] if ends else 0j
         if len(ends) > 1:
             along = self.places[ends[1]] - origin
             return origin, along / abs(along)
-        line = next((s for s in self.slides if s.body == name and not s.turns), None)
+        line = next((s for s in self.slides if s.body == name != FRAME and not s.turns), None)
         return origin, cmath.rect(1.0, line.angle) if line is not None else 1 + 0j
 
     def _ordered(self, name: str) -> tuple[list[str], list[str]]:
@@ -228,7 +219,7 @@ class Bodies:
             return [p for p in (first,) if p], rest
         return [first, second], [p for p in rest if p != second]
 
-    def _link(self, name: str, lines: dict[str, BodySlide]) -> dict[str, Json]:
+    def _link(self, name: str) -> dict[str, Json]:
         ends, further = self._ordered(name)
         origin, axis = self._axis(name)
         table: dict[str, Json] = {"points": ends}
@@ -236,14 +227,6 @@ class Bodies:
             table["length"] = number(abs(self.places[ends[1]] - origin))
         if further:
             table["at"] = {p: _pair((self.places[p] - origin) / axis) for p in further}
-        if lines:
-            table["guides"] = {
-                line: {
-                    "through": _pair((slide.through - origin) / axis),
-                    "angle": _degrees(slide.angle - cmath.phase(axis)),
-                }
-                for line, slide in lines.items()
-            }
         return table
 
     def _on(self, slide: BodySlide, ref: str, table: dict[str, Json]) -> dict[str, Json]:
@@ -285,8 +268,6 @@ def _degrees(angle: float) -> float:
     return float(near) if abs(turned - near) < 1e-12 * max(1.0, abs(turned)) else number(turned)
 
 
-def _fresh(name: str, taken: Iterable[str]) -> str:
-    used = set(taken)
-    if name not in used:
-        return name
-    return next(made for k in range(2, len(used) + 3) if (made := f"{name}x{k}") not in used)
+def _fresh(name: str, taken: Collection[str]) -> str:
+    names = (name, *(f"{name}x{k}" for k in range(2, len(taken) + 3)))
+    return next(made for made in names if made not in taken)

@@ -43,6 +43,7 @@ class _Construction:
     """Points, each constructed from others, with their bars and slides, all by the labels of the file.
 
     moving : points that move
+    circles, lines : the centre of a circle, and two points of a line
     bars : pairs of points at a constant distance
     slid : a point, the two points of its line, and the sentence for a line that no link has
     driven : pivot and end of a crank, and its rate (rad/s); no pivot of a point that is pulled along a fixed line, and
@@ -51,6 +52,8 @@ class _Construction:
 
     made: Bodies
     moving: set[str] = field(default_factory=set)
+    circles: dict[str, str] = field(default_factory=dict)
+    lines: dict[str, tuple[str, str]] = field(default_factory=dict)
     bars: list[list[str]] = field(default_factory=list)
     slid: list[tuple[str, tuple[str, str], Wording]] = field(default_factory=list)
     driven: list[tuple[str, str, float]] = field(default_factory=list)
@@ -115,12 +118,9 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
                     made.made.point(element.get("label", ""), _place(element))
     except DAMAGED as error:
         raise CallError.of(title, "is no file of geogebra", "save it as ggb", error=from_others(error)) from None
-    circles: dict[str, str] = {}
-    lines: dict[str, tuple[str, str]] = {}
     for command in (element for element in elements if element.tag == "command"):
-        given, got = (_arguments(command, tag) for tag in ("input", "output"))
-        _follow(command.get("name", ""), given, got, made, circles, lines)
-    used = {p for held in (*made.bars, *lines.values()) for p in held}
+        _follow(made, command.get("name", ""), *(_arguments(command, tag) for tag in ("input", "output")))
+    used = {p for held in (*made.bars, *made.lines.values()) for p in held}
     made.slid = [slide for slide in made.slid if slide[0] in used]
     points = made.made.names
     frame = [p for p in points if p not in made.moving and p in used]
@@ -130,12 +130,9 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
     return made.bodies(frame)
 
 
-def _follow(
-    name: str, given: list[str], got: list[str], made: _Construction, circles: dict[str, str],
-    lines: dict[str, tuple[str, str]],
-) -> None:  # fmt: skip
-    """Follow a command: ``circles`` have their centre by name, ``lines`` two points."""
-    out, points = got[0] if got else "", made.made.names
+def _follow(made: _Construction, name: str, given: list[str], got: list[str]) -> None:
+    """Follow a command."""
+    out, points, circles, lines = got[0] if got else "", made.made.names, made.circles, made.lines
 
     def slide(point: str, line: str) -> None:
         made.slid.append((point, lines[line], Phrase("lost point on line", name=point, line=line)))

@@ -142,8 +142,7 @@ def read_address(text: str, title: str) -> Bodies:
             sections.append([])
     if len(sections) < 3 or not sections[0] or not sections[1]:
         raise CallError.of(title, "is no link of pmks with joints and", "copy the whole link")
-    flags, speeds = _whole(heads[0], title), heads[2].split(",")
-    decimals = heads[1].split(",")
+    flags, decimals, speeds = _whole(heads[0], title), heads[1].split(","), heads[2].split(",")
     made = Bodies(title, unit=UNITS[min(_whole(heads[3][:1], title), 2)] if heads[3] else "cm")
     turning = (-1.0 if flags & 1 else 1.0) * _whole(speeds[0], title) * math.tau / 60
     sliding = _whole(decimals[1], title) / 1000 if len(decimals) > 1 else 1.0
@@ -243,9 +242,8 @@ def read_pyslvs(text: str, title: str) -> Bodies:
         _join(made, known, f"P{len(made.places)}", kind, place, names, turn)
     made.bodies.setdefault(FRAME, [])
     points = list(made.places)
-    pairs = re.findall(r"base\W+(\d+)\D+?drive\W+(\d+)", plain[end:]) or re.findall(
-        r"base\W+(\d+)\D+?drive\W+(\d+)", plain[: begin.start()]
-    )
+    around = (re.findall(r"base\W+(\d+)\D+?drive\W+(\d+)", part) for part in (plain[end:], plain[: begin.start()]))
+    pairs = next(filter(None, around), [])
     if not pairs and len(re.findall(r"\bM\s*\[", plain)) == 1:
         pairs = _first_crank(made)
     for base, drive in pairs:
@@ -291,11 +289,10 @@ def write_pyslvs(bodies: Bodies) -> str:
     for point, place in bodies.places.items():
         holders = bodies.having(point)
         slots = [s for s in bodies.slides if s.point == point and s.turns]
-        slot = slots[0] if slots else None
         bodies.lost += [Phrase("lost slide", link=s.body, on=s.on) for s in slots[1:]]
         kept = [s for s in bodies.slides if s.point == point and not s.turns]
-        if slot is not None:
-            joint("RP", place, [slot.on, *(n for n in holders if n != slot.on)], slot.angle)
+        if slots:
+            joint("RP", place, [slots[0].on, *(n for n in holders if n != slots[0].on)], slots[0].angle)
         elif len(holders) > 1 or not kept:
             joint("R", place, holders)
         for slide in kept:

@@ -68,13 +68,12 @@ def read_linkage2(text: str, title: str) -> Bodies:
     for key, node in nodes.items():
         if node.get("slider") == "true" and key in made.names:
             holders = names.get(key, []) or [FRAME] * (node.get("anchor") == "true")
-            _slider(made, node, holders, names)
+            _slider(made, node, holders)
         if node.get("anchor") == "true" and node.get("input") == "true":
-            turned = names.get(key, [])
-            if not turned:
-                made.lost.append(Phrase("lost motor", name=node.get("name") or key))
+            if key in names:
+                made.drive(names[key][0], _number(node, "rpm", RPM) * math.tau / 60)
             else:
-                made.drive(turned[0], _number(node, "rpm", RPM) * math.tau / 60)
+                made.lost.append(Phrase("lost motor", name=node.get("name") or key))
     return made
 
 
@@ -89,33 +88,28 @@ def _number(node: ElementTree.Element, key: str, usual: float = 0.0) -> float:
 
 
 def _fastened(node: ElementTree.Element) -> bool:
-    return any(node.get(key) for key in ("fasten", "fastenlink", "fastenconnector")) or any(
-        child.tag == "fastenconnector" for child in node
-    )
+    by_name = any(node.get(key) for key in ("fasten", "fastenlink", "fastenconnector"))
+    return by_name or node.find("fastenconnector") is not None
 
 
-def _slider(made: Bodies, node: ElementTree.Element, holders: list[str], names: dict[str, list[str]]) -> None:
+def _slider(made: Bodies, node: ElementTree.Element, holders: list[str]) -> None:
     """Add a connector that runs on the straight line between two others of one body."""
     limits = [c.get("id", "") for c in node if c.tag == "slidelimit"][:2]
-    label = node.get("name") or node.get("id")
-    if len(limits) < 2 or any(k not in made.names for k in limits) or not holders:
-        made.lost.append(Phrase("lost slider limits", name=label))
+    point, held = made.names[node.get("id", "")], len(limits) == 2 and made.names.keys() >= {*limits} and holders
+    on = made.holder(limits) if held else None
+    if not held:
+        lost = "lost slider limits"
+    elif _number(node, "slideradius"):
+        lost = "lost slider round"
+    elif on is None:
+        lost = "lost slider on two"
+    elif point in made.bodies[on]:
+        lost = "lost slider of guide"
+    else:
+        start, end = map(made.place, limits)
+        made.slides.append(BodySlide(holders[0], point, on, start, cmath.phase(end - start), turns=True))
         return
-    if _number(node, "slideradius"):
-        made.lost.append(Phrase("lost slider round", name=label))
-        return
-    start, end = map(made.place, limits)
-    fixed = all(made.names[k] in made.bodies[FRAME] for k in limits)
-    shared = [n for n in names.get(limits[0], []) if n in names.get(limits[1], [])]
-    if not fixed and not shared:
-        made.lost.append(Phrase("lost slider on two", name=label))
-        return
-    point = made.names[node.get("id", "")]
-    on = FRAME if fixed else shared[0]
-    if point in made.bodies.get(on, []):
-        made.lost.append(Phrase("lost slider of guide", name=label))
-        return
-    made.slides.append(BodySlide(holders[0], point, on, start, cmath.phase(end - start), turns=True))
+    made.lost.append(Phrase(lost, name=node.get("name") or node.get("id")))
 
 
 def _cylinder(made: Bodies, element: ElementTree.Element, label: str, ends: list[str]) -> None:
@@ -143,11 +137,9 @@ def write_linkage2(bodies: Bodies) -> str:
             bodies.lost.append(Phrase("lost driver of", link=body))
         else:
             motors[pivot] = rate * 60 / math.tau
-    ends: dict[str, list[str]] = {}
+    on_line = {s.point: [p for p in bodies.bodies[s.on] if p != s.point and _on_line(bodies.places[p], s)]
+               for s in bodies.slides}  # fmt: skip
     scale = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}[bodies.unit]
-    for slide in bodies.slides:
-        there = [p for p in bodies.bodies[slide.on] if p != slide.point and _on_line(bodies.places[p], slide)]
-        ends[slide.point] = there[-2:]
     for point, place in bodies.places.items():
         here = {"id": ids[point], "name": point, "layer": "4"}
         here |= {"x": repr(place.real * scale), "y": repr(place.imag * scale)}
@@ -155,10 +147,10 @@ def write_linkage2(bodies: Bodies) -> str:
             here["anchor"] = "true"
         if point in motors:
             here |= {"input": "true", "rpm": repr(motors[point])}
-        if point in ends:
+        if point in on_line:
             here["slider"] = "true"
         node = ElementTree.SubElement(root, "connector", here)
-        for end in ends.get(point, ()):
+        for end in on_line.get(point, [])[-2:]:
             ElementTree.SubElement(node, "slidelimit", id=ids[end])
     for k, (name, points) in enumerate(bodies.bodies.items()):  # the frame too, or its points would be of no link
         element = ElementTree.SubElement(root, "element", id=str(k), name=name, layer="4", linesize="1")
