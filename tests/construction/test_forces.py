@@ -16,8 +16,7 @@ import pytest
 
 import graphkin
 from graphkin.construction import draft
-from graphkin.construction.forces import groups, with_forces
-from graphkin.construction.forces import position as acting
+from graphkin.construction.forces import draw, groups, with_forces
 from graphkin.construction.forces.groups import CutFree
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
@@ -293,12 +292,12 @@ def wrong(scene=SHAPER):
 
 
 def test_an_inertia_force_in_the_sense_of_the_acceleration_is_found(monkeypatch):
-    right = acting._inertia
+    right = draw.inertia_read
     def along(*given):
         one = right(*given)
         return replace(one, force=-one.force)
 
-    monkeypatch.setattr(acting, "_inertia", along)
+    monkeypatch.setattr(draw, "inertia_read", along)
     assert {"Fi_6", "F_4/3", "M_2"} <= wrong()
 
 
@@ -320,18 +319,18 @@ def test_a_load_forgotten_is_found(monkeypatch):
 
 
 def test_a_moment_of_inertia_forgotten_is_found(monkeypatch):
-    right = acting._inertia
-    monkeypatch.setattr(acting, "_inertia", lambda *given: replace(right(*given), moment=0.0))
+    right = draw.inertia_read
+    monkeypatch.setattr(draw, "inertia_read", lambda *given: replace(right(*given), moment=0.0))
     assert {"Mi_4", "F_4/3", "M_2"} <= wrong()
 
 
 def test_planted_errors_are_found_in_the_drawn_system_of_a_larger_group_too(monkeypatch):
     scene = loaded(graphkin.read("double-butterfly").to_dict(), 5)
     assert set() == wrong(scene)
-    right, cross = acting._inertia, groups.cross
-    monkeypatch.setattr(acting, "_inertia", lambda *given: replace(one := right(*given), force=-one.force))
+    right, cross = draw.inertia_read, groups.cross
+    monkeypatch.setattr(draw, "inertia_read", lambda *given: replace(one := right(*given), force=-one.force))
     assert {"M_2", "F_1/2"} <= wrong(scene)
-    monkeypatch.setattr(acting, "_inertia", right)
+    monkeypatch.setattr(draw, "inertia_read", right)
     monkeypatch.setattr(groups, "cross", lambda a, b: -cross(a, b))  # every arm on the wrong side
     assert "M_2" in wrong(scene)
 

@@ -27,7 +27,7 @@ from graphkin.construction.board.scales import extent_of, fitting_scale
 from graphkin.construction.board.sheet import Reading, Sheet
 from graphkin.construction.board.steps import Step, changed
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
-from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertias, springs
+from graphkin.construction.forces.position import DrawnPosition, force_groups, from_outside, inertia_read, spring_read
 from graphkin.construction.forces.steps import ForceGroup, ForceState, ForceStep, ForceVector, Lever, MomentTerm
 from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, added_up, cross, unit
@@ -42,6 +42,7 @@ LEAST = 10.0
 """Length on paper (mm) of the largest force of a group; a group of smaller forces has a scale of its own, since nobody
 can read them to a hundredth."""
 Numbered = TypeVar("Numbered", bound=Step)
+Stepwise = TypeVar("Stepwise", ForceGroup, Lever)
 ForceScales = Mapping[tuple[str, ...], float]
 """N for one mm of force polygons: of groups with a scale of their own by their links, of all others by ()."""
 SAME = 1e-12
@@ -65,14 +66,16 @@ def with_forces(sheet: Sheet, hand: Instrument = EXACT, scales: ForceScales | No
     scales = scales or sheet.force_scales or force_scales(sheet)
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
-    held, pushes, pulls = held_by_pairs(sheet), inertias(sheet, hand), springs(sheet, hand)
+    drawn, held, loading = DrawnPosition(sheet), held_by_pairs(sheet), sheet.scene.loading
+    inertias = {mass.link: inertia_read(drawn, mass, hand) for mass in loading.masses}
+    springs = tuple(spring_read(drawn, spring, hand) for spring in loading.springs)
     states = [
-        _state(held, hand, scales, from_outside(sheet, growing, pushes, pulls, sheet.acting, with_edges))
+        _state(held, hand, scales, from_outside(drawn, growing, inertias, springs, with_edges))
         for with_edges in ((False, True) if None in sheet.acting.values() else (False,))
     ]
     states = [replace(state, levers=levers_of(sheet, state, hand)) for state in states]
     scales_used = replace(sheet.scales, force=scales[()])
-    return _numbered(replace(sheet, scales=scales_used, inertias=pushes, springs=pulls, forces=tuple(states)))
+    return _numbered(replace(sheet, scales=scales_used, inertias=inertias, springs=springs, forces=tuple(states)))
 
 
 def _numbered(sheet: Sheet) -> Sheet:
@@ -80,21 +83,21 @@ def _numbered(sheet: Sheet) -> Sheet:
     a second state where it differs from the first, then the levers."""
     numbers, bare = count(sheet.steps[-1].number + 1 if sheet.steps else 1), sheet.forces[0].groups
 
-    def in_order(steps: Iterable[Numbered]) -> tuple[Numbered, ...]:
-        return tuple(changed(step, number=next(numbers)) for step in steps)
+    def numbered(step: Numbered) -> Numbered:
+        return changed(step, number=next(numbers))
 
-    inertias = dict(zip(sheet.inertias, in_order(sheet.inertias.values()), strict=True))
-    springs, states = in_order(sheet.springs), list[ForceState]()
-    first = [replace(group, steps=in_order(group.steps)) for group in bare]
-    for state in sheet.forces:
-        beside = zip(state.groups, bare, first, strict=True)
-        groups = (
-            group if drawn == before else replace(drawn, steps=in_order(drawn.steps)) for drawn, before, group in beside
-        )
-        states.append(replace(state, groups=tuple(groups)))
-    for k, state in enumerate(states):
-        levers = (replace(lever, steps=in_order(lever.steps)) for lever in state.levers)
-        states[k] = replace(state, levers=tuple(levers))
+    def in_order(group: Stepwise) -> Stepwise:
+        return replace(group, steps=tuple(map(numbered, group.steps)))
+
+    inertias = {link: numbered(step) for link, step in sheet.inertias.items()}
+    springs, first = tuple(map(numbered, sheet.springs)), [in_order(group) for group in bare]
+    groups = [
+        tuple(done if drawn == before else in_order(drawn)
+              for drawn, before, done in zip(state.groups, bare, first, strict=True))
+        for state in sheet.forces
+    ]  # fmt: skip
+    states = (replace(state, groups=drawn, levers=tuple(map(in_order, state.levers)))
+              for state, drawn in zip(sheet.forces, groups, strict=True))  # fmt: skip
     return replace(sheet, inertias=inertias, springs=springs, forces=tuple(states))
 
 
@@ -152,16 +155,11 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
     vectors = {symbol: force for symbol, (force, _) in forces.items()}
     per_mm = {symbol: next((drawn_at[name] for name in drawn_at if name in links), common)
               for symbol, (_, links) in forces.items()}  # fmt: skip
-    drawn = tuple(changed(g, read={**g.read, **dict(_named(g, vectors))}) for g in groups)
-    return ForceState(known, drawn, vectors, moments, per_mm)
-
-
-def _named(group: ForceGroup, vectors: Mapping[Symbol, complex]) -> Iterator[tuple[Symbol, float]]:
-    """The lengths (mm) of forces read off the polygons of a group that are forces (N) of pairs by their names."""
-    for symbol in group.read:
-        force = vectors.get(symbol, vectors.get(symbol.opposite))
-        if force is not None:
-            yield symbol, abs(force / group.per_mm)
+    for k, group in enumerate(groups):  # what was read of forces of pairs, by their names
+        named = {symbol: vectors.get(symbol, vectors.get(symbol.opposite)) for symbol in group.read}
+        read = {symbol: abs(force / group.per_mm) for symbol, force in named.items() if force is not None}
+        groups[k] = changed(group, read={**group.read, **read})
+    return ForceState(known, tuple(groups), vectors, moments, per_mm)
 
 
 def _joints(cut: CutFree, forces: Found, moments: dict[Symbol, float]) -> None:

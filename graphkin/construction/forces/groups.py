@@ -174,10 +174,6 @@ class CutFree:
             if force.link != self.drawn.structure.scene.frame.name:
                 self.acting[force.link].append(changed(force, by="given", direction=None, part=""))
 
-    def hand_on(self, force: ForceVector, inside: Collection[str]) -> None:
-        """Load with a force or a couple that of its two links which is not inside a group: it is still to come."""
-        self.push(*(acting for acting in (force, force.back) if acting.link not in inside))
-
     def on(self, links: Iterable[str]) -> list[ForceVector]:
         """The known actions on some links, without those of size zero."""
         return [load for link in links for load in self.acting[link] if load.force or load.moment]
@@ -248,9 +244,14 @@ class CutFree:
             symbol = symbol if link == pair.a else symbol.opposite
         return ForceVector(symbol, link=link, at=at, by="closing", off=other)
 
-    def set_balance(self, balance: ForceVector, acting: ForceVector) -> None:
-        """Set a balancing load, as found on one of its two links."""
+    def hand_on(self, force: ForceVector, inside: Collection[str]) -> None:
+        """Load with a force or a couple that of its two links which is not inside a group: it is still to come."""
+        self.push(*(acting for acting in (force, force.back) if acting.link not in inside))
+
+    def set_balance(self, balance: ForceVector, acting: ForceVector, inside: Collection[str]) -> None:
+        """A balancing load as found on one of its two links: what drives a link from one still to come loads that."""
         self.balances.append(acting.on(balance.link))
+        self.hand_on(acting, inside)
 
     def set_slide(self, slide: Pair, force: ForceVector, couple: ForceVector, inside: Collection[str]) -> None:
         """The force and the couple of a sliding pair on one of its links; both load the other, if that comes later."""
@@ -260,17 +261,12 @@ class CutFree:
 
     # -- moments -------------------------------------------------------------------------------------------------------
 
-    @property
-    def size(self) -> float:
-        """The mechanism, in mm on paper."""
-        return self.drawn.sheet.scene.size * self.drawn.mm
-
     def term(self, acting: ForceVector, about: complex) -> MomentTerm:
         """The moment of a force about a place, its arm measured on the mechanism; a couple is its own."""
         if not acting.force:
             return MomentTerm(acting, None, acting.moment)
         mm = cross(acting.at - about, unit(acting.force))
-        arm = self.hand.read_signed(mm) if abs(mm) >= 1e-12 * self.size else 0.0
+        arm = self.hand.read_signed(mm) if abs(mm) >= 1e-12 * self.drawn.size else 0.0
         return MomentTerm(acting, arm, abs(acting.force) * arm / self.drawn.mm, about)
 
     def moments(
@@ -290,7 +286,7 @@ class CutFree:
         Unsolvable : "dead point": the line goes through the place
         """
         sought = self.term(unknown, about)
-        if sought.arm is not None and abs(sought.arm) <= PARALLEL * self.size:
+        if sought.arm is not None and abs(sought.arm) <= PARALLEL * self.drawn.size:
             raise _dead_point(links)
         acting = [*self.on(links), *(load for load in more if load.force or load.moment)]
         terms = tuple(self.term(load, about) for load in sorted(acting, key=lambda load: not load.force))
@@ -571,7 +567,7 @@ def _at_driven_joint(
         on = ForceVector(symbol, link=leaf, at=cut.drawn.point(leaf, pair.point), by="closing", off=other)
     on_leaf = on, push, *_ = _close_driven(cut, chain, pair, on, balance.on(leaf), extra, inside)
     cut.inside((leaf,), chain)
-    cut.set_balance(balance, push)
+    cut.set_balance(balance, push, inside)
     if pair.turns:
         cut.pins[pair.point, leaf] += on.force
         cut.pins[pair.point, other] -= on.force
@@ -598,8 +594,7 @@ def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup
     cut.lettered(chain)
     if pair.turns:
         cut.pins[pair.point, pair.a] += on.force
-    cut.set_balance(balance, push)
-    cut.hand_on(push, (link,))  # what drives a link from another one loads that one
+    cut.set_balance(balance, push, (link,))
     return cut.finished((link,))
 
 
@@ -693,8 +688,7 @@ def _carry_over(
         elif slide is not None:
             couples[slide.key] = changed(load, moment=value)
         else:
-            cut.set_balance(load, couple := changed(load, moment=value))
-            cut.hand_on(couple, members)  # what drives a link of the group from one still to come loads that
+            cut.set_balance(load, changed(load, moment=value), members)
     polygons: dict[str, Chain] = {name: [] for name in members}
     for name in members:
         cut.lay_known(polygons[name], (name,))
@@ -707,8 +701,7 @@ def _carry_over(
             cut.set_slide(slide, load, couples[slide.key], members)
             cut.shift(load, couples[slide.key].moment)
         else:
-            cut.set_balance(load, load)
-            cut.hand_on(load, members)
+            cut.set_balance(load, load, members)
         for force in (load, load.back):
             if force.link in polygons:
                 cut.lay(polygons[force.link], changed(force, by="closing"))

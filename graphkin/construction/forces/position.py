@@ -27,6 +27,9 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Structure, analyse
 from graphkin.words import Phrase
 
+COINCIDE = 1e-9
+"""Of the mechanism's size: places nearer to each other are one, and points of a spring have no line."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class DrawnPosition:
@@ -116,6 +119,11 @@ class DrawnPosition:
         """Of paper for one m of the mechanism."""
         return 1.0 / self.sheet.scales.length
 
+    @cached_property
+    def size(self) -> float:
+        """Of the mechanism on paper (mm)."""
+        return self.sheet.scene.size * self.mm
+
     def place(self, link: str, at: complex) -> complex:
         """A place of a link on paper (mm).
 
@@ -123,8 +131,7 @@ class DrawnPosition:
         ----------
         at : the place in the link's own axes (m)
         """
-        pose = self.sheet.poses[link]
-        return pose.place(at * self.mm)
+        return self.sheet.poses[link].place(at * self.mm)
 
     def point(self, link: str, point: str) -> complex:
         """A point of a link, where it was pricked (mm)."""
@@ -166,12 +173,7 @@ class DrawnPosition:
         """Two points of a link that lie farthest apart, each with its end point; None where it has no two."""
         known = self._known(order, link)
         far = max(((p, q) for p in known for q in known), key=lambda both: abs(both[0][0] - both[1][0]), default=None)
-        return far if far is not None and abs(far[0][0] - far[1][0]) > self._tiny else None
-
-    @cached_property
-    def _tiny(self) -> float:
-        """Places nearer to each other are one (mm): 1e-9 of the size of the mechanism."""
-        return 1e-9 * self.sheet.scene.size * self.mm
+        return far if far is not None and abs(far[0][0] - far[1][0]) > COINCIDE * self.size else None
 
     def _known(self, order: str, link: str) -> list[tuple[complex, complex]]:
         """Points of a link that have an end point: place on the mechanism and end (mm)."""
@@ -191,7 +193,7 @@ class DrawnPosition:
             raise Unsolvable("not drawn", Problem(Phrase("link of name", name=link),
                                                   "no point of it stands in the polygons"))
         start, end = min(known, key=lambda pair: abs(pair[0] - at))
-        if abs(start - at) <= self._tiny:
+        if abs(start - at) <= COINCIDE * self.size:
             return end
         far = self.image(order, link)
         if far is not None:
@@ -281,23 +283,14 @@ def _acts(sheet: Sheet, growing: Sheet, load: LoadOn) -> bool | None:
     return None if edge else acts
 
 
-COINCIDE = 1e-9
-"""Of the mechanism's size: points of a spring that lie nearer have no line."""
-
-
-def inertias(sheet: Sheet, hand: Instrument) -> dict[str, Inertia]:
-    """Inertia force and couple of every link that has a mass, off the drawn acceleration polygon."""
-    drawn = DrawnPosition(sheet)
-    return {mass.link: _inertia(sheet, drawn, mass, hand) for mass in sheet.scene.loading.masses}
-
-
-def _inertia(sheet: Sheet, drawn: DrawnPosition, mass: LinkMass, hand: Instrument) -> Inertia:
-    """F = -m a_S at the centre of mass (N), M = -J alpha (N m), and both as one force at h = M / F from it."""
+def inertia_read(drawn: DrawnPosition, mass: LinkMass, hand: Instrument) -> Inertia:
+    """Inertia force and couple of a link, off the drawn acceleration polygon: F = -m a_S at the centre of mass (N),
+    M = -J alpha (N m), and both as one force at h = M / F from it."""
     centre = drawn.place(mass.link, mass.at)
     image = drawn.end("acceleration", mass.link, centre)
     size = hand.read(abs(image))
-    push = image / abs(image) * size * sheet.scales.acceleration if image else 0j
-    force, moment = -mass.mass * push, -mass.inertia * sheet.rates["alpha"][mass.link].value
+    push = image / abs(image) * size * drawn.sheet.scales.acceleration if image else 0j
+    force, moment = -mass.mass * push, -mass.inertia * drawn.sheet.rates["alpha"][mass.link].value
     shifted, h = shifted_line(force, centre, moment, drawn.mm) if force else (None, None)
     return Inertia(
         "read", "inertia", "force", link=mass.link, finds=(Symbol("Fi", link=mass.link),), mass=mass, centre=centre,
@@ -306,28 +299,29 @@ def _inertia(sheet: Sheet, drawn: DrawnPosition, mass: LinkMass, hand: Instrumen
 
 
 def from_outside(
-    sheet: Sheet, growing: Sheet, pushes: Mapping[str, Inertia], springs: Iterable[ForceStep],
-    acts: Mapping[str, bool | None], with_edges: bool,
+    drawn: DrawnPosition, growing: Sheet, inertias: Mapping[str, Inertia], springs: Iterable[ForceStep],
+    with_edges: bool,
 ) -> tuple[ForceVector, ...]:  # fmt: skip
     """All known forces, then couples, those of no size among them.
 
     Parameters
     ----------
     growing : what tells the sense in which pairs slide
-    springs : as they were measured (`springs`)
+    inertias, springs : as they were read
     with_edges : whether loads act that begin or end exactly here
     """
-    drawn, loading = DrawnPosition(sheet), sheet.scene.loading
+    sheet, loading = drawn.sheet, drawn.sheet.scene.loading
     made: list[ForceVector] = []
     for mass in loading.masses:
-        link, inertia = mass.link, pushes[mass.link]
-        made.append(ForceVector(Symbol("Fi", link=link), link=link, force=inertia.force, at=inertia.centre))
+        link, read = mass.link, inertias[mass.link]
+        made.append(ForceVector(Symbol("Fi", link=link), link=link, force=read.force, at=read.centre))
         if loading.gravity:
             weight = mass.mass * loading.gravity
-            made.append(ForceVector(Symbol("G", link=link), link=link, force=weight, at=inertia.centre))
-        made.append(ForceVector(Symbol("Mi", link=link), link=link, moment=inertia.moment))
+            made.append(ForceVector(Symbol("G", link=link), link=link, force=weight, at=read.centre))
+        made.append(ForceVector(Symbol("Mi", link=link), link=link, moment=read.moment))
     for load in loading.loads:
-        on = with_edges if acts[load.name] is None else acts[load.name]
+        acts = sheet.acting[load.name]
+        on = with_edges if acts is None else acts
         symbol = Symbol("P", name=load.name, turning=not load.is_force)
         if load.is_force:
             force = _force(sheet, growing, load) if on else 0j
@@ -338,19 +332,13 @@ def from_outside(
     return tuple(sorted(made, key=lambda load: not load.symbol.is_vector))
 
 
-def springs(sheet: Sheet, hand: Instrument) -> tuple[ForceStep, ...]:
-    """The length of each spring, read off the drawn mechanism, and both its forces along its line."""
-    drawn = DrawnPosition(sheet)
-    return tuple(_spring(drawn, spring, hand) for spring in sheet.scene.loading.springs)
-
-
-def _spring(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> ForceStep:
+def spring_read(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> ForceStep:
     """A spring by its length as read on the drawn mechanism (m), its pull on the first link (N) along its line, and the
     opposite on the second.  Raises Unsolvable ("dead point") where its points coincide."""
     pricked = (drawn.sheet.points.get(PointRef(point)) for point in spring.points)
     start, end = (drawn.place(*place) if z is None else z for z, place in zip(pricked, spring.ends, strict=True))
     size = abs(end - start)
-    if size <= COINCIDE * drawn.sheet.scene.size * drawn.mm:
+    if size <= COINCIDE * drawn.size:
         said = "its two points coincide in this position so", "move the driver off this position"
         raise Unsolvable("dead point", Problem(spring.where, *said))
     length = hand.read(size) / drawn.mm
