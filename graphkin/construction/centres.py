@@ -167,11 +167,6 @@ class Centres:
         """All pairs of links, each written in the order of the file, the frame last."""
         return tuple(self.pair(a, b) for a, b in combinations(self.names, 2))
 
-    @cached_property
-    def places(self) -> dict[LinkPair, int]:
-        """The index of each pair in their order."""
-        return {pair: place for place, pair in enumerate(self.pairs)}
-
     def pair(self, a: str, b: str) -> LinkPair:
         """Two links in the order in which their centre is written."""
         order = self.scene.order
@@ -383,12 +378,13 @@ class CircleDiagram:
     table : the centres so far, in their order
     lines : the known lines of each missing centre
     best : the crossing of two of them with the least error
-    ranked : of sure crossings the error in powers of ten and the pair's index in the order of links, the least first;
-        those in the table are skipped
+    order : the index of each pair in the order of links
+    ranked : of sure crossings the error in powers of ten and the pair's index, the least first; those in the table are
+        skipped
     joined : by link the links of centres with it that closed triangles of the circle diagram can give in turn, if no
         two lines coincide
     reached : these centres
-    placed : by link the centres of known place with others
+    placed : by link the centres of known place with others, and the places
     """
 
     def __init__(self, links: Centres, normals: Sequence[CentreRelation]) -> None:
@@ -396,8 +392,9 @@ class CircleDiagram:
         self.table: dict[LinkPair, Centre] = {}
         self.lines: dict[LinkPair, list[CentreRelation]] = {pair: [] for pair in links.pairs}
         self.best: dict[LinkPair, Centre] = {}
+        self.order = {pair: k for k, pair in enumerate(links.pairs)}
         self.ranked: list[tuple[int, int, LinkPair]] = []
-        self.placed: dict[str, dict[str, Centre]] = {name: {} for name in links.names}
+        self.placed: dict[str, dict[str, tuple[Centre, Place]]] = {name: {} for name in links.names}
         self.joined: dict[str, set[str]] = {name: set() for name in links.names}
         for line in normals:
             self.draw(line)
@@ -410,18 +407,17 @@ class CircleDiagram:
             return
         if centre.pair not in self.reached:
             self.reached |= self.reached_with([centre.pair], self.joined)
-        for a, b in (centre.pair, centre.pair[::-1]):
-            self.placed[a][b] = centre
-        for a, b in (centre.pair, centre.pair[::-1]):
+        both = (centre.pair, centre.pair[::-1])
+        for a, b in both:
+            self.placed[a][b] = centre, centre.place
+        for a, b in both:
             # the triangles a, b, via: the side from a to via is missing
             missing = self.placed[b].keys() - self.placed[a].keys() - {a}
             for via in [name for name in self.links.names if name in missing]:
-                other, pair = self.placed[b][via], self.links.pair(a, via)
+                (other, place), pair = self.placed[b][via], self.links.pair(a, via)
                 if len(self.lines[pair]) == MOST_LINES:
                     continue
-                assert centre.place is not None
-                assert other.place is not None
-                line, sine = wedge(centre.place, other.place)
+                line, sine = wedge(centre.place, place)
                 if sine > TOGETHER:
                     ends = (centre.pair, other.pair) if pair[0] in centre.pair else (other.pair, centre.pair)
                     error = (centre.error + other.error + ROUNDING) / sine
@@ -443,7 +439,7 @@ class CircleDiagram:
                 place = -place[0], -place[1], -place[2]
             self.best[pair] = Centre(pair, "found", place, lines=(other, relation), error=error / sine)
             if error / sine <= SURE:
-                heappush(self.ranked, (math.ceil(math.log10(error / sine)), self.links.places[pair], pair))
+                heappush(self.ranked, (math.ceil(math.log10(error / sine)), self.order[pair], pair))
         lines.append(relation)
 
     def crossing(self) -> Centre | None:

@@ -13,7 +13,7 @@ Radgetriebe und ihre Gesetze, Maschinenbau 6 (1927); VDI 2157.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -25,7 +25,7 @@ from graphkin.construction.board.scales import fitting_scale
 from graphkin.construction.board.steps import Bar, Order, RateStep, Step, Superposed
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
-from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.model import PlacedLink
 from graphkin.scene.pairs import PlacedGear
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, meshes_of
@@ -440,18 +440,12 @@ def rolled(
             if plan is None:
                 continue
             drawn.append(plan)
-            steps = [replace(step, plan=len(drawn)) for step in _steps(scene, plan)]
+            # drawn beside the train, not on the polygon
+            lines = (replace(step, strokes=()) for step in plan.lines.values() if step.link in scene.by_name)
+            trial = () if plan.trial is None else (plan.trial,)
+            steps = [replace(step, plan=len(drawn)) for step in (*trial, *lines, *plan.travels.values())]
         step = plan.step(here)
         assert step is not None
         return step.value, step.mm, steps
     raise Unsolvable("not drawn", Problem(Phrase("link of name", name=name),
                                           "no velocity plan leads to what rolls here"))
-
-
-def _steps(scene: Mechanism, plan: TrainPlan) -> Iterator[Step]:
-    """The steps of a plan."""
-    if plan.trial is not None:
-        yield plan.trial
-    # drawn beside the train, not on the polygon
-    yield from (replace(step, strokes=()) for step in plan.lines.values() if step.link in scene.by_name)
-    yield from plan.travels.values()
