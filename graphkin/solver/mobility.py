@@ -163,7 +163,7 @@ def _free_guides(structure: Structure) -> list[int]:
         own = {p for name in dyad.links for p in structure.links[name].points}
         known = {p for j in range(i) for n in structure.elements[j].members for p in structure.links[n].points}
         fresh = own - known - set(scene.frame.points)
-        if dyad.is_slider_on_bar and not dyad.inner.turns and fresh and not fresh & told and dyads[-1][0] > i:
+        if dyad.kind == "RPR" and not dyad.inner.turns and fresh and not fresh & told and dyads[-1][0] > i:
             found.append(i)
     return found[:MOST]
 

@@ -33,6 +33,7 @@ from graphkin.structure.model import (
     RollingRelation,
     Structure,
     TurnedBy,
+    carried,
     driver_pair,
     reached,
 )
@@ -82,11 +83,11 @@ def analyse(scene: Mechanism | Structure) -> Structure:
         given = match(unknowns)
         raise Unsolvable("mobility", _wrong_part(structure, unknowns, given), *_loose_ends(structure))
     is_relative = structure.touching or any(d.relative_to != scene.frame.name for d in scene.drivers)
-    if is_relative and (twice := driven_twice(scene, structure.touching, structure.links, structure.slides)):
+    if is_relative and (twice := driven_twice(structure)):
         said = (Phrase("slides wheels and other drivers give", driver=d.key, link=d.link, other=d.relative_to)
                 for d in twice)  # fmt: skip
-        raise Unsolvable("mobility", *(Problem(Phrase("status mobility"), phrase, "drive another pair")
-                                       for phrase in said))  # fmt: skip
+        where = Phrase("status mobility")
+        raise Unsolvable("mobility", *(Problem(where, phrase, "drive another pair") for phrase in said))
     elements = _in_order(structure, _nodes(structure), unknowns, given, {scene.frame.name}, turned)
     return _with_starts(_in_parts(replace(structure, elements=elements)))
 
@@ -149,15 +150,9 @@ AHEAD = "d"
 
 def _turned_by(structure: Structure) -> dict[str, TurnedBy]:
     """For each link whose direction drivers and sliding pairs alone give, these, from the frame on."""
-    turned: dict[str, TurnedBy] = {structure.scene.frame.name: ()}
     steps: list[Driver | Pair] = [*(driver for driver in structure.drivers if driver.turns), *structure.slides]
-    for _ in steps:
-        for step in steps:
-            link, base = step.links
-            for name, before in ((link, base), (base, link)):
-                if before in turned and name not in turned:
-                    turned[name] = (*turned[before], (step, name == link))
-    return turned
+    frame: dict[str, TurnedBy] = {structure.scene.frame.name: ()}
+    return carried(frame, [(*step.links, step) for step in steps], lambda by, step, back: (*by, (step, not back)))
 
 
 def _later(turned: Mapping[str, TurnedBy], driver: Driver) -> str | None:
@@ -412,13 +407,14 @@ def _dyad(structure: Structure, bodies: list[Body], pairs: list[Pair], links: tu
         if all(sides) or not any({*body.links}.issuperset(pair.links) for body in bodies):
             # links held together by a driver at this very point hang on it once
             of_sides.setdefault(sides, {}).setdefault(pair.point or pair.key, pair)
-    inner, first, second = (list(of_sides.get(sides, {}).values()) for sides in _SIDES)
-    if len(inner) != 1 or len(first) != 1 or len(second) != 1:
+    held = [[*of_sides.get(sides, {}).values()] for sides in _SIDES]
+    if any(len(pairs_there) != 1 for pairs_there in held):
         return None
-    (middle,), (outer_first,), (outer_second,) = inner, first, second
-    if outer_first.letter + middle.letter + outer_second.letter not in _KINDS:
+    (middle,), (outer_first,), (outer_second,) = held
+    letters = outer_first.letter + middle.letter + outer_second.letter
+    if letters not in _KINDS:
         return None
-    kind, begins = _KINDS[outer_first.letter + middle.letter + outer_second.letter]
+    kind, begins = _KINDS[letters]
     rank = _ranks(structure)
     sides_of = (outer_first, first_body), (outer_second, second_body)
     first_rank, second_rank = (next(rank(n) for n in pair.links if n in body.links) for pair, body in sides_of)

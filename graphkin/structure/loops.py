@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.pairs import Pair
-from graphkin.structure.model import Coordinate, Driven, Element, Structure
+from graphkin.structure.model import Coordinate, Driven, Element, Structure, carried
 from graphkin.words.written import roman
 
 
@@ -104,25 +104,20 @@ Turning = Mapping[str, tuple[str, float, float]]
 def _turning(structure: Structure) -> Turning:
     """For each link the link whose angle it shares: links that slide on each other, or are held by a driver, turn
     alike; a block has its guide's angle, a link that never turns or is given the frame's."""
-    joins = [(s.b, s.a, 0.0, 0.0) for s in structure.slides]
-    joins += [(d.relative_to, d.link, d.rate, d.second) for d in structure.scene.drivers if d.turns]
+    joins = [(s.b, s.a, (0.0, 0.0)) for s in structure.slides]
+    joins += [(d.relative_to, d.link, (d.rate, d.second)) for d in structure.scene.drivers if d.turns]
     order, frame, blocks = structure.scene.order, structure.scene.frame.name, {s.a for s in structure.slides}
 
     def rank(name: str) -> tuple[bool, bool, int, str]:
         return name != frame, name in blocks, order.get(name, len(order)), name
 
+    def onward(turning: tuple[str, float, float], rates: tuple[float, float], on: bool) -> tuple[str, float, float]:
+        (first, omega, alpha), (rate, second), sign = turning, rates, 1.0 if on else -1.0
+        return first, omega + sign * rate, alpha + sign * second
+
     turning: dict[str, tuple[str, float, float]] = {}
     for name in sorted(structure.links, key=rank):
-        grown = name not in turning
-        turning.setdefault(name, (name, 0.0, 0.0))
-        while grown:
-            grown = False
-            for a, b, rate, second in joins:
-                for here, there, sign in ((a, b, 1.0), (b, a, -1.0)):
-                    if here in turning and there not in turning:
-                        first, omega, alpha = turning[here]
-                        turning[there] = first, omega + sign * rate, alpha + sign * second
-                        grown = True
+        turning = carried({**turning, name: turning.get(name, (name, 0.0, 0.0))}, joins, onward)
     return turning
 
 
@@ -179,35 +174,30 @@ Passage = tuple[str, Pair, str]
 
 def _found(structure: Structure) -> list[Loop]:
     """The loops of all groups in the order of solution, those that the pairs of each close with what comes before."""
-    known: list[Passage] = []
+    known: list[Pair] = []
     loops: list[Loop] = []
     for element in structure.elements:
-        edges = [(pair.a, pair, pair.b) for pair in element.all_pairs]
-        for cycle in () if isinstance(element, Driven) else _cycles(structure, element, edges, known):
+        for cycle in () if isinstance(element, Driven) else _cycles(structure, element, known):
             loops.append(Loop(roman(len(loops) + 1), _arrows(structure, cycle), element.links))
-        known += edges
+        known += element.all_pairs
     return loops
 
 
-def _cycles(
-    structure: Structure, element: Element, edges: Sequence[Passage], known: Sequence[Passage]
-) -> list[Sequence[Passage]]:
+def _through(pair: Pair, start: str) -> Passage:
+    return start, pair, pair.other(start)
+
+
+def _cycles(structure: Structure, element: Element, known: Sequence[Pair]) -> list[Sequence[Passage]]:
     """Independent cycles: a tree from the known links over the group; each pair outside the tree closes a cycle, from
     where the ways to its links part."""
-    reached = {n for a, _, b in edges for n in (a, b)}.difference(element.members)
-    path: dict[str, list[Passage]] = {name: [] for name in reached}  # from a known link
-    left, grown = list(edges), True
-    while grown:
-        grown = False
-        for edge in list(left):
-            a, pair, b = edge
-            if (a in path) != (b in path):
-                here, there = (a, b) if a in path else (b, a)
-                path[there] = [*path[here], (here, pair, there)]
-                left.remove(edge)
-                grown = True
+    pairs = element.all_pairs
+    from_known: dict[str, list[Passage]] = {n: [] for pair in pairs for n in pair.links if n not in element.members}
+    path = carried(from_known, [(*pair.links, pair) for pair in pairs],
+                   lambda path, pair, on: [*path, _through(pair, pair.links[not on])])  # fmt: skip
+    tree = [passages[-1][1] for passages in path.values() if passages]
     cycles = []
-    for a, pair, b in left:
+    for pair in (pair for pair in pairs if pair not in tree):
+        a, b = pair.links
         common = sum(1 for _ in takewhile(lambda both: both[0] == both[1], zip(path[a], path[b], strict=False)))
         out, back = path[a][common:], path[b][common:]
         start, end = (out[0][0] if out else a), (back[0][0] if back else b)
@@ -216,20 +206,19 @@ def _cycles(
     return cycles
 
 
-def _over_known(structure: Structure, start: str, end: str, known: Sequence[Passage]) -> list[Passage]:
+def _over_known(structure: Structure, start: str, end: str, known: Sequence[Pair]) -> list[Passage]:
     """The shortest path over links placed before."""
-    placed = {n for a, _, b in known for n in (a, b)} | {structure.scene.frame.name}
-    shared = [(a, Pair(p, a, b), b) for p, names in structure.hinges.items() for a in names for b in names
+    placed = {n for pair in known for n in pair.links} | {structure.scene.frame.name}
+    shared = [Pair(p, a, b) for p, names in structure.hinges.items() for a in names for b in names
               if a < b and {a, b} <= placed]  # fmt: skip
     paths: dict[str, list[Passage]] = {start: []}
     queue = [start]
     while end not in paths:
         here = queue.pop(0)
-        for a, pair, b in (*known, *shared):
-            there = b if a == here else a if b == here else here
-            if there not in paths:
-                paths[there] = [*paths[here], (here, pair, there)]
-                queue.append(there)
+        for passage in (_through(pair, here) for pair in (*known, *shared) if here in pair.links):
+            if passage[2] not in paths:
+                paths[passage[2]] = [*paths[here], passage]
+                queue.append(passage[2])
     return paths[end]
 
 

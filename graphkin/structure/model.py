@@ -176,9 +176,8 @@ class Dyad:
 
     From these follow its ``bodies``, all ``members`` (blocks of pins included), ``pairs`` in the order of its kind,
     the ``outer`` ones, the driven ``joints`` and ``drivers`` inside its bodies, ``all_pairs`` with those of the joints,
-    the known links ``outside``, its words ``named``, whether it ``is_two_lines``: two straight lines cross in it, so
-    that it has one assembly only, and whether it ``is_slider_on_bar``: one body slides on the other, and both turn
-    about known points.
+    the known links ``outside``, its words ``named``, and whether it ``is_two_lines``: two straight lines cross in it,
+    so that it has one assembly only.
     """
 
     kind: DyadKind
@@ -204,7 +203,6 @@ class Dyad:
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
     is_two_lines: bool = field(init=False, repr=False, compare=False)
-    is_slider_on_bar: bool = field(init=False, repr=False, compare=False)
     named = cached_property(_named)
 
     @property
@@ -220,7 +218,7 @@ class Dyad:
         self.__dict__.update(
             bodies=(first, second), members=members, pairs=pairs, outer=outer, joints=joints, drivers=drivers,
             all_pairs=(*pairs, *(joint.pair for joint in joints)), outside=frozenset(hung.difference(members)),
-            is_two_lines=self.kind in ("PRP", "RPP"), is_slider_on_bar=self.kind == "RPR",
+            is_two_lines=self.kind in ("PRP", "RPP"),
         )  # fmt: skip
 
 
@@ -409,6 +407,29 @@ def reached(start: Iterable[N], onward: Callable[[N], Iterable[N]]) -> dict[N, N
         nodes.update(dict.fromkeys(fresh))
         queue += fresh
     return nodes
+
+
+V = TypeVar("V")
+E = TypeVar("E")
+
+
+def carried(
+    known: Mapping[str, V], edges: Sequence[tuple[str, str, E]], onward: Callable[[V, E, bool], V]
+) -> dict[str, V]:
+    """Values of some links carried along edges to all links that hang on them, in the order of the edges.
+
+    Parameters
+    ----------
+    onward : function of the value at one end, the edge, and whether that end is its first, to the value at the other
+    """
+    values, grown = dict(known), True
+    while grown:
+        grown = False
+        for a, b, edge in edges:
+            if (a in values) != (b in values):
+                here, there = (a, b) if a in values else (b, a)
+                values[there], grown = onward(values[here], edge, here == a), True
+    return values
 
 
 def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[Pair, ...]) -> Pair | None:

@@ -21,7 +21,7 @@ from itertools import chain, islice, product
 from graphkin.plane import Pose, added_up, dot
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import HigherPair, Pair, PlacedGear
-from graphkin.structure.model import Coordinate, LargerGroup, RollingRelation, Structure
+from graphkin.structure.model import Coordinate, LargerGroup, RollingRelation, Structure, carried
 
 
 def meshes_of(
@@ -138,33 +138,24 @@ def followers_of(
     return tuple(followers), left
 
 
-def driven_twice(
-    scene: Mechanism, touching: Iterable[HigherPair], links: Mapping[str, PlacedLink], slides: Iterable[Pair]
-) -> list[Driver]:
+def driven_twice(structure: Structure) -> list[Driver]:
     """The drivers whose rates slides, rolling and the drivers before them give already, so that one contradicts the
     others."""
-    alike: dict[str, str] = {}  # links that never turn relative to each other, each by another one
-
-    def first(link: str) -> str:
-        while link in alike:
-            link = alike[link]
-        return link
-
-    for s in slides:
-        a, b = sorted((first(s.a), first(s.b)), key=lambda link: link == scene.frame.name)
-        if a != b:
-            alike[a] = b
+    scene, alike = structure.scene, dict[str, str]()  # of links that never turn relative to each other, one
+    for link in (scene.frame.name, *structure.links):
+        for name in structure.turning_with(link):
+            alike.setdefault(name, link)
 
     def row(terms: Iterable[tuple[Coordinate, Fraction]]) -> Row:
         added: Row = {}
         for (kind, name), factor in terms:
-            coordinate = (kind, first(name) if kind == "angle" else name)
+            coordinate = (kind, alike[name] if kind == "angle" else name)
             if coordinate != ("angle", scene.frame.name):
                 added[coordinate] = added.get(coordinate, Fraction(0)) + factor
         return {coordinate: factor for coordinate, factor in added.items() if factor}
 
     rows: Rows = {}
-    for relation in relations_of(scene, meshes_of(scene, touching, links)):
+    for relation in relations_of(scene, meshes_of(scene, structure.touching, structure.links)):
         _add(rows, row(relation.terms.items()))
     given = ((("angle", d.link), ("angle", d.relative_to)) if d.turns else (("travel", d.key),) for d in scene.drivers)
     driven = (row(zip(terms, (Fraction(1), Fraction(-1)), strict=False)) for terms in given)
@@ -264,12 +255,5 @@ def _turned(structure: Structure, name: str, angle: float) -> Driver:
 
 def _still(scene: Mechanism, slides: Iterable[Pair]) -> dict[str, complex]:
     """The own axes of the links that never turn: of the frame, and of what slides on it or on such a link."""
-    still, grown = {scene.frame.name: 1 + 0j}, True
-    while grown:
-        grown = False
-        for s in slides:
-            turn = s.guide.direction * s.turn
-            if (s.a in still) != (s.b in still):
-                grown = True
-                still |= {s.a: still[s.b] * turn} if s.b in still else {s.b: still[s.a] / turn}
-    return still
+    turns = [(s.b, s.a, s.guide.direction * s.turn) for s in slides]
+    return carried({scene.frame.name: 1 + 0j}, turns, lambda axis, turn, on: axis * turn if on else axis / turn)

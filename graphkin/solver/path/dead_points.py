@@ -234,7 +234,7 @@ def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, A
         across = abs((along.conjugate() * right_side).imag) / (abs(along) or 1.0)
         branch = not across > 1e-5 * abs(right_side)
         assert isinstance(group, Dyad)
-        if group.is_slider_on_bar and abs(e2) < 1e-6 * scene.size:
+        if group.kind == "RPR" and abs(e2) < 1e-6 * scene.size:
             first, second = (p.point for p in group.outer)
             ending, branch = Phrase("have no direction of their own", first=first, second=second), True
         else:
