@@ -403,14 +403,13 @@ class Pieces:
         return most <= 1e-12 * float(self.scale[curve])
 
     def _roots(self, coefficients: Array, scale: float, doubt: Array) -> Array:
-        found: list[float] = []
         rounding = 1e-15 * scale
         rest = np.sum(np.abs(coefficients[:, 1:]), axis=1)
         # a piece that is nothing but rounding has no roots
         look = (np.abs(coefficients[:, 0]) <= rest + rounding) & (rest > np.maximum(rounding, doubt))
-        for low, high, c in zip(self.low[look], self.high[look], coefficients[look], strict=True):
-            for x in _real_roots(c, rounding):
-                found.append(float((low + high) / 2 + (high - low) / 2 * x))
+        pieces = zip(self.low[look], self.high[look], coefficients[look], strict=True)
+        found = [float((low + high) / 2 + (high - low) / 2 * x)
+                 for low, high, c in pieces for x in _real_roots(c, rounding)]  # fmt: skip
         found += self._crossings(coefficients, FLAT * np.maximum(rounding, doubt), found)
         if len(found) > MOST_ROOTS:
             return np.zeros(0)
@@ -423,7 +422,7 @@ class Pieces:
                 kept[-1] = t - distance / 2  # rounding has parted one root
             elif distance > SAME * whole:
                 kept.append(min(max(t, float(self.low[0])), float(self.high[-1])))
-        if self.periodic and len(kept) > 1 and kept[-1] - kept[0] > (1 - SAME) * (self.high[-1] - self.low[0]):
+        if self.periodic and len(kept) > 1 and kept[-1] - kept[0] > (1 - SAME) * whole:
             kept.pop()
         return np.array(kept)
 
@@ -578,13 +577,7 @@ def resolve(
         waiting = np.concatenate([np.stack([low_, mid], axis=1), np.stack([mid, high_], axis=1)])
         before = np.concatenate([tail[rough], tail[rough]])
     done.sort(key=lambda piece: float(piece[0][0]))
-    return Pieces(
-        np.array([w[0] for w, _, _ in done]),
-        np.array([w[1] for w, _, _ in done]),
-        np.stack([k for _, k, _ in done]),
-        scale,
-        periodic,
-        np.zeros((2, len(scale))) if weight is None else weight,
-        np.stack([d for _, _, d in done]),
-        seams,
-    )
+    ends, coefficients, lost = (np.stack(part) for part in zip(*done, strict=True))
+    low_ends, high_ends = np.ascontiguousarray(ends.T)
+    weight = np.zeros((2, len(scale))) if weight is None else weight
+    return Pieces(low_ends, high_ends, coefficients, scale, periodic, weight, lost, seams)

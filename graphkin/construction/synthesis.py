@@ -116,10 +116,20 @@ def _(task: CrankRockerTask, paper: TaskBoard) -> None:
     paper.step("lay off", "design swing", *fan("given", D, first, second), *pivots(D=D),
                *points(C1=first, C2=second), angle(D, second - D, first - D, swing, "ψ"), angles=(swing,),
                mm=arm)  # fmt: skip
-    if _theta(task.K) == 0.0:
-        A = _pivot_on_line(paper, D, first, second, task)
+    frame = paper.mm(task.frame)
+    if _theta(task.K) == 0.0:  # crank and rod lie in the line C1C2 in both limit positions
+        reach = paper.instrument.compass(frame)
+        A = paper.cut("A", second, unit(first - second), D, reach)[0]
+        paper.step("read", "design theta", angles=(0.0,), K=task.K)
+        paper.step("cross", "design line", Bar(second, A), *arcs(D, reach, A), *pivots(A=A), mm=frame)
     else:
-        A = _pivot_on_circle(paper, D, _locus(paper, first, second, -1, task.K), task)
+        middle, radius = _locus(paper, first, second, -1, task.K)
+        reach = paper.instrument.compass(frame)
+        met = cross_arcs(D, reach, middle, radius)
+        if met is None:
+            raise not_drawn("A", "the arc about d does not reach the", "another frame")
+        A = paper.instrument.point(min(met, key=lambda z: z.real))
+        paper.step("cross", "design arc", *arcs(D, reach, A), *pivots(A=A), mm=frame)
     _between_limits(paper, A, D, first, second)
 
 
@@ -149,30 +159,6 @@ def _locus(paper: TaskBoard, first: complex, second: complex, above: int, K: flo
                *fan("construction", left, centre, right), Ray(midway, square, centre), *points(O=centre),
                CompassArc(centre, radius, first, whole=True), angles=(tilt, theta))  # fmt: skip
     return centre, radius
-
-
-def _pivot_on_circle(
-    paper: TaskBoard, D: complex, locus: tuple[complex, float], task: CrankRockerTask
-) -> complex:
-    """The crank's pivot, at the crossing of the frame's arc about D and the circle over C1C2."""
-    middle, radius = locus
-    reach = paper.instrument.compass(paper.mm(task.frame))
-    met = cross_arcs(D, reach, middle, radius)
-    if met is None:
-        raise not_drawn("A", "the arc about d does not reach the", "another frame")
-    A = paper.instrument.point(min(met, key=lambda z: z.real))
-    paper.step("cross", "design arc", *arcs(D, reach, A), *pivots(A=A), mm=paper.mm(task.frame))
-    return A
-
-
-def _pivot_on_line(paper: TaskBoard, D: complex, first: complex, second: complex, task: CrankRockerTask) -> complex:
-    """The crank's pivot for K = 1: crank and rod lie in the line C1C2 in both limit positions."""
-    reach = paper.instrument.compass(paper.mm(task.frame))
-    A = paper.cut("A", second, unit(first - second), D, reach)[0]
-    paper.step("read", "design theta", angles=(0.0,), K=task.K)
-    paper.step("cross", "design line", Bar(second, A), *arcs(D, reach, A), *pivots(A=A),
-               mm=paper.mm(task.frame))  # fmt: skip
-    return A
 
 
 def _between_limits(paper: TaskBoard, A: complex, D: complex, first: complex, second: complex) -> None:
@@ -225,11 +211,10 @@ def _(task: GuideBarTask, paper: TaskBoard) -> None:
     length = hand.length(reach)
     first = paper.meet("D1", C, left, C - length, hand.direction(1j))
     second = paper.meet("D2", C, right, C + length, hand.direction(1j))
-    top = C + 1j * abs(first - C)
+    top = hand.point(C + 1j * abs(first - C))
     paper.step("cross", "design bar ends", Bar(C - length, first), Bar(C + length, second),
                *points(D1=first, D2=second), *lines("mechanism", C, first), *lines("limit", C, second),
                mm=reach)  # fmt: skip
-    top = hand.point(top)
     chord = paper.meet("chord", first, unit(second - first), C, 1j)
     level = hand.point((top + chord) / 2)
     rod = hand.compass(paper.mm(task.rod_length))

@@ -80,12 +80,10 @@ def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Trans
         first, second = ({*body.links, *map(structure.scene.body_of, body.links)} for body in dyad.bodies)
         if (a in first and b in second) or (b in first and a in second):
             return joint_of_dyad(structure, dyad)
-    links = structure.links
-    shared = [p for p in links[a].points if p in links[b].points]
-    for point in shared:
-        ways = [_arm(structure, name, point) for name in (a, b)]
-        if ways[0] and ways[1]:
-            return TransmissionAngle(ways[0], ways[1])
+    for point in (p for p in structure.links[a].points if p in structure.links[b].points):
+        first_arm, second_arm = (_arm(structure, name, point) for name in (a, b))
+        if first_arm and second_arm:
+            return TransmissionAngle(first_arm, second_arm)
     raise CallError.of(str(symbol), "links and share no joint at which a", "name two links of one joint bars or",
                        name=a, other=b)
 

@@ -312,7 +312,7 @@ class CutFree:
         """Lay off forces head to tail."""
         for force in forces:
             tail = _end_of(chain)
-            chain.append(force.between(tail, self.hand.laid_off(tail, force.force / self.per_mm)))
+            chain.append(changed(force, tail=tail, tip=self.hand.laid_off(tail, force.force / self.per_mm)))
 
     def lay_known(self, chain: Chain, links: Iterable[str]) -> None:
         """Lay off the known forces on some links."""
@@ -330,9 +330,9 @@ class CutFree:
         if first is not None:
             d, e = self.hand.direction(last.force), self.hand.direction(first.force)
             start, corner = corner, self.hand.crossing(last.symbol, end, d, corner, e)
-            chain.insert(0, first.between(start - _gap(chain, corner, start), start))
+            chain.insert(0, changed(first, tail=start - _gap(chain, corner, start), tip=start))
             corner = chain[0].tail
-        chain.append(last.between(end, end + _gap(chain, end, corner)))
+        chain.append(changed(last, tail=end, tip=end + _gap(chain, end, corner)))
 
     def drawn_in(self, chain: Chain, force: ForceVector) -> ForceVector:
         """A force as it stands in a polygon, all its parts together (N)."""

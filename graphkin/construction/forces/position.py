@@ -262,25 +262,20 @@ def acting_loads(sheet: Sheet, growing: Sheet) -> dict[str, bool | None]:
     sheet : the position, with the limit positions of the strokes of loads
     growing : the same with velocities, those of the driver's growing value where the mechanism rests
     """
-    return {load.name: _acts(sheet, growing, load) for load in sheet.scene.loading.loads}
-
-
-def _acts(sheet: Sheet, growing: Sheet, load: LoadOn) -> bool | None:
-    """Whether a load acts here by its phase: by the driver's value, or by how far its stroke has gone and which way it
-    runs; None where it begins or ends exactly here."""
-    phase = load.phase
-    if phase is None:
-        return True
-    if not phase.stroke:
-        driver = sheet.scene.drivers[0]
-        acts, edge = load.acts_at(sheet.drivers[driver.key], driver.turns)
-    else:
-        slide, ends = sheet.structure.slide(phase.stroke), [end.poses for end in sheet.limits[phase.stroke]]
-        here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, *ends))
-        slip, most = DrawnPosition(growing).slip(slide)
-        running = abs(slip) > STILL * most and (slip > 0) == (phase.sense > 0)
-        acts, edge = load.acts_on_stroke((here - low) / (high - low) if high > low else 0.0, running)
-    return None if edge else acts
+    acting: dict[str, bool | None] = {}
+    for load in sheet.scene.loading.loads:
+        acts, edge, phase = True, False, load.phase
+        if phase is not None and phase.stroke:  # how far its stroke has gone, and which way it runs
+            slide, ends = sheet.structure.slide(phase.stroke), [end.poses for end in sheet.limits[phase.stroke]]
+            here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, *ends))
+            slip, most = DrawnPosition(growing).slip(slide)
+            running = abs(slip) > STILL * most and (slip > 0) == (phase.sense > 0)
+            acts, edge = load.acts_on_stroke((here - low) / (high - low) if high > low else 0.0, running)
+        elif phase is not None:
+            driver = sheet.scene.drivers[0]
+            acts, edge = load.acts_at(sheet.drivers[driver.key], driver.turns)
+        acting[load.name] = None if edge else acts
+    return acting
 
 
 def inertia_read(drawn: DrawnPosition, mass: LinkMass, hand: Instrument) -> Inertia:

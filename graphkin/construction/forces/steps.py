@@ -84,10 +84,6 @@ class ForceVector(Vector):
         sized, direction = self.by != "closing", self.direction or NO_DIRECTION
         return Term(self.symbol, sized, sized or self.direction is not None, None, direction, self.part, self.turned)
 
-    def between(self, tail: complex, tip: complex) -> ForceVector:
-        """The vector at its place in a polygon (mm)."""
-        return changed(self, tail=tail, tip=tip)
-
     @property
     def back(self) -> ForceVector:
         """Its opposite, on the other link."""
