@@ -90,10 +90,7 @@ def glyph(character: str, style: Style = "regular") -> Glyph | None:
     """A glyph of the family; for a Chinese character that it lacks a glyph from a face of this machine, None without
     such a face."""
     own = _own_glyph(ord(character), style) or _own_glyph(ord(character), "regular")
-    if own is None and ord(character) > 0x2E7F:
-        found = machine_glyph(character)
-        return Glyph(*found) if found is not None else None
-    return own
+    return machine_glyph(character) if own is None and ord(character) > 0x2E7F else own
 
 
 def held(style: Style, characters: Iterable[str]) -> dict[int, Glyph]:
@@ -149,33 +146,28 @@ _FOLDERS = (
 EPS = 1.0  # thousandths of the size by which an outline may be moved as it becomes quadratic
 
 
-@lru_cache(maxsize=4096)
-def machine_glyph(character: str) -> tuple[int, bytes] | None:
-    """Advance and simple TrueType outline of a glyph in thousandths of the size; None where no known face is
-    installed or none has it."""
-    with READING:
-        return _machine_glyph(character)
-
-
-def _machine_glyph(character: str) -> tuple[int, bytes] | None:
-    font = _font()
-    name = font.getBestCmap().get(ord(character)) if font is not None else None
-    if font is None or name is None:
-        return None
+def machine_glyph(character: str) -> Glyph | None:
+    """A glyph of the machine's face; None where no known face is installed or none has it."""
     from fontTools.misc.transform import Scale
     from fontTools.pens.cu2quPen import Cu2QuPen
     from fontTools.pens.recordingPen import DecomposingRecordingPen
     from fontTools.pens.transformPen import TransformPen
     from fontTools.pens.ttGlyphPen import TTGlyphPen
 
-    drawn = font.getGlyphSet()
-    path = DecomposingRecordingPen(drawn)
-    drawn[name].draw(path)
-    times = EM / font["head"].unitsPerEm
-    pen = TTGlyphPen(None)
-    path.replay(TransformPen(Cu2QuPen(pen, EPS, reverse_direction="glyf" not in font), Scale(times)))
-    outline = pen.glyph(round=round)
-    return round(drawn[name].width * times), outline.compile(None) if outline.numberOfContours else b""
+    with READING:
+        font = _font()
+        name = font.getBestCmap().get(ord(character)) if font is not None else None
+        if font is None or name is None:
+            return None
+        drawn = font.getGlyphSet()
+        path = DecomposingRecordingPen(drawn)
+        drawn[name].draw(path)
+        times = EM / font["head"].unitsPerEm
+        pen = TTGlyphPen(None)
+        path.replay(TransformPen(Cu2QuPen(pen, EPS, reverse_direction="glyf" not in font), Scale(times)))
+        outline = pen.glyph(round=round)
+        shape = outline.compile(None) if outline.numberOfContours else b""
+        return Glyph(round(drawn[name].width * times), shape)
 
 
 @cache
@@ -249,23 +241,15 @@ def outline(text: str, at: complex, size: float, style: Style) -> str:
     """
     from fontTools.pens.svgPathPen import SVGPathPen
     from fontTools.pens.transformPen import TransformPen
+    from fontTools.ttLib.tables._g_l_y_f import Glyph as Outline
 
     pen = SVGPathPen(None, ntos=lambda mm: f"{mm:.2f}".rstrip("0").rstrip("."))
     times, x = size / EM, at.real
-    for character in text:
-        found = glyph(character, style)
-        if found is None:
-            continue
-        _draw(found, TransformPen(pen, (times, 0, 0, -times, x, at.imag)))
+    for found in filter(None, (glyph(character, style) for character in text)):
+        if found.outline:
+            shape = Outline(found.outline)
+            shape.expand(None)
+            shape.draw(TransformPen(pen, (times, 0, 0, -times, x, at.imag)), None)
         x += found.advance * times
     commands: str = pen.getCommands()
     return commands
-
-
-def _draw(found: Glyph, pen: object) -> None:
-    from fontTools.ttLib.tables._g_l_y_f import Glyph as Outline
-
-    if found.outline:
-        shape = Outline(found.outline)
-        shape.expand(None)
-        shape.draw(pen, None)

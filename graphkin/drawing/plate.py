@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, panel
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Run, Stroke, Text, on_page
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Run, Stroke, on_page
 from graphkin.drawing.ink.symbols import RESULTANT, ArrowKind, arrow
 from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.names import with_labels
@@ -50,9 +50,8 @@ class Plate:
         toward: tuple[float, ...] = (), step: int | None = None, between: Words = "",
     ) -> None:  # fmt: skip
         """A name of a point, or of the line between two; as `Label.of`."""
-        text = Text(0j, runs, "start", colour, id, ("label",), step)
         here = (on_page(mark[0]), on_page(mark[1])) if isinstance(mark, tuple) else on_page(mark)
-        self.labels.append(Label(text, here, toward, rank, between=between))
+        self.labels += [Label.of(runs, here, id, colour=colour, rank=rank, toward=toward, step=step, between=between)]
 
     def arrow(
         self, layer: str, id: str, tail: complex, tip: complex, symbol: RichText, size: float = 3.0, *,

@@ -8,21 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import (
-    Arc,
-    Circle,
-    Group,
-    Line,
-    Polygon,
-    Polyline,
-    Primitive,
-    Stroke,
-    Text,
-    map_tree,
-)
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Text, map_tree
 
 FADED = 0.42  # of its colour is left to what was drawn before
-HALO, HALO_WIDTH = "#ffe08a", 2.0  # mm around what is new: pale enough to print as a light grey
 
 
 def step_of(thing: Primitive) -> int | None:
@@ -75,26 +63,20 @@ def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primit
             found += [thing._replace(children=inside)] if inside else []
         elif step is not None and step < first:
             found += strokes.pale((thing,), FADED, FADED + 0.2)
-        elif step is not None and isinstance(thing, Group):
-            halo = (
-                ()
-                if {"inset", "ring"} & set(thing.classes)
-                else tuple(band for child in thing.children for band in _band(child))
-            )
-            found += [Group(halo, classes=("new",))] if halo else []
-            found.append(thing)
         else:
+            new = step is not None and isinstance(thing, Group) and not {"inset", "ring"} & set(thing.classes)
+            halo = tuple(band for child in thing.children for band in _band(child)) if new else ()
+            found += [Group(halo, classes=("new",))] if halo else []
             found.append(thing)
     return tuple(found)
 
 
 def _band(thing: Primitive) -> list[Primitive]:
+    """The pale band under a stroke; none under areas and words."""
     if isinstance(thing, Line) and thing.start != thing.end:
-        return [Line(thing.start, thing.end, Stroke(HALO_WIDTH, (), HALO))]
-    if isinstance(thing, Polyline | Arc):
-        return [thing._replace(stroke=Stroke(HALO_WIDTH, (), HALO))]
-    if isinstance(thing, Polygon) and thing.stroke is not None and not thing.fill:
-        return [Polygon(thing.points, "", Stroke(HALO_WIDTH, (), HALO))]
+        return [Line(thing.start, thing.end, strokes.HALO)]
+    if isinstance(thing, Polyline | Arc) or (isinstance(thing, Polygon) and thing.stroke and not thing.fill):
+        return [thing._replace(stroke=strokes.HALO)]
     if isinstance(thing, Circle):
-        return [Circle(thing.centre, thing.radius + HALO_WIDTH / 2, HALO)]
+        return [Circle(thing.centre, thing.radius + strokes.HALO.width / 2, strokes.HALO.colour)]
     return []

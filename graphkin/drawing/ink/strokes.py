@@ -33,6 +33,7 @@ OF_CENTRES = Stroke(0.13, (), "#7a7a7a")  # lines on which centres lie
 HATCHING = Stroke(0.18)
 DIMENSION = Stroke(0.18)
 LEADER = Stroke(0.18)
+HALO = Stroke(2.0, (), "#ffe08a")  # around what is new: pale enough to print as a light grey
 
 # Okabe and Ito, Color Universal Design (2008), darkened to a contrast of at least 4.5 to 1 on white paper so that
 # lines and letters in them survive a black-and-white printer; the order keeps neighbours apart for every kind of sight.

@@ -88,9 +88,9 @@ SPRING_WIDTH = 3.6
 Shape = Line | Polyline | Polygon | Circle | Arc
 
 
-def turning_pair(at: complex, colour: str = strokes.BLACK, radius: float = JOINT_RADIUS) -> tuple[Circle, ...]:
+def turning_pair(at: complex, radius: float = JOINT_RADIUS) -> tuple[Circle, ...]:
     """Open circle, white inside so that bars end at it."""
-    return (Circle(at, radius, fill=strokes.WHITE, stroke=strokes.OUTLINE.coloured(colour)),)
+    return (Circle(at, radius, fill=strokes.WHITE, stroke=strokes.OUTLINE),)
 
 
 def pin(at: complex, colour: str = strokes.BLACK) -> tuple[Circle, ...]:
@@ -98,7 +98,7 @@ def pin(at: complex, colour: str = strokes.BLACK) -> tuple[Circle, ...]:
     return (Circle(at, PIN_RADIUS, fill=colour),)
 
 
-def hatched_line(start: complex, end: complex, stroke: Stroke = strokes.FRAME) -> tuple[Line, ...]:
+def hatched_line(start: complex, end: complex) -> tuple[Line, ...]:
     """The edge of the frame from start to end, hatched on its right in this sense on the page."""
     length = abs(end - start)
     along = (end - start) / length
@@ -106,7 +106,7 @@ def hatched_line(start: complex, end: complex, stroke: Stroke = strokes.FRAME) -
     count = max(2, round(length / HATCH_PITCH))
     feet = (start + along * length * (i + 0.75) / count for i in range(count))
     lean = (right - along * 0.8) * HATCH_DEPTH / abs(right)
-    return Line(start, end, stroke), *(Line(foot, foot + lean, strokes.HATCHING) for foot in feet)
+    return Line(start, end, strokes.FRAME), *(Line(foot, foot + lean, strokes.HATCHING) for foot in feet)
 
 
 def fixed_pivot(at: complex, angle: float = -math.pi / 2) -> tuple[Shape, ...]:
@@ -115,31 +115,17 @@ def fixed_pivot(at: complex, angle: float = -math.pi / 2) -> tuple[Shape, ...]:
     right = down * -1j
     left_foot, right_foot = (at + FOOT_HEIGHT * down + side * FOOT_WIDTH / 2 * right for side in (-1, 1))
     inner = 0.62  # the legs stand inside the edge of the frame
-    legs = Polygon(
-        (at, at + FOOT_HEIGHT * down - inner * FOOT_WIDTH / 2 * right,
-         at + FOOT_HEIGHT * down + inner * FOOT_WIDTH / 2 * right),
-        fill=strokes.WHITE,
-        stroke=strokes.OUTLINE,
-    )  # fmt: skip
+    corners = (at + FOOT_HEIGHT * down + side * inner * FOOT_WIDTH / 2 * right for side in (-1, 1))
+    legs = Polygon((at, *corners), strokes.WHITE, strokes.OUTLINE)
     return legs, *hatched_line(left_foot, right_foot), *turning_pair(at)
 
 
-def guide(
-    at: complex, angle: float, length: float, width: float = BLOCK_WIDTH, sides: tuple[int, ...] = (1, -1)
-) -> tuple[Shape, ...]:
-    """Frame guide for a block at a place: hatched edges beside its path, ``length`` (mm) long.
-
-    ``sides`` are the drawn edges: +1 left, -1 right, looking along ``angle``.
-    """
+def guide(at: complex, angle: float, length: float, width: float = BLOCK_WIDTH) -> tuple[Line, ...]:
+    """Frame guide for a block at a place: hatched edges beside its path, ``length`` (mm) long, the left one first."""
     along = page_direction(angle)
     side = along * 1j * width / 2
     half = along * length / 2
-    edges: list[Shape] = []
-    if 1 in sides:
-        edges += hatched_line(at + half - side, at - half - side)
-    if -1 in sides:
-        edges += hatched_line(at - half + side, at + half + side)
-    return tuple(edges)
+    return *hatched_line(at + half - side, at - half - side), *hatched_line(at - half + side, at + half + side)
 
 
 def block(
@@ -167,27 +153,23 @@ def slot(start: complex, end: complex, colour: str = strokes.BLACK, width: float
 
 
 def circular_slot(
-    centre: complex, radius: float, start: float, end: float, colour: str = strokes.BLACK, width: float = SLOT_WIDTH
-) -> tuple[Shape, ...]:
+    centre: complex, radius: float, start: float, end: float, colour: str = strokes.BLACK
+) -> tuple[Arc, ...]:
     """Slot along a circle between two angles (rad, as of `Arc`), where its round ends have their centres."""
-    stroke, half = strokes.OUTLINE.coloured(colour), width / 2
-    whole = Arc(centre, radius, start, end, strokes.OUTLINE)
-    ends = [(whole.at(angle), angle, sign) for angle, sign in ((start, -1.0), (end, 1.0))]
-    caps = [Arc(place, half, angle, angle + sign * math.pi, stroke) for place, angle, sign in ends]
-    return (
-        Arc(centre, radius, start, end, Stroke(width, colour=strokes.WHITE)),
-        Arc(centre, radius + half, start, end, stroke),
-        Arc(centre, radius - half, start, end, stroke),
-        *caps,
-    )
+    stroke, half = strokes.OUTLINE.coloured(colour), SLOT_WIDTH / 2
+    inside = Arc(centre, radius, start, end, Stroke(SLOT_WIDTH, colour=strokes.WHITE))
+    edges = (Arc(centre, radius + side * half, start, end, stroke) for side in (1, -1))
+    ends = (start, -math.pi), (end, math.pi)
+    caps = (Arc(inside.at(angle), half, angle, angle + turn, stroke) for angle, turn in ends)
+    return inside, *edges, *caps
 
 
-def weld(
-    at: complex, first: complex, second: complex, colour: str = strokes.BLACK, size: float = 3.2
-) -> tuple[Polygon, ...]:
+WELD = 3.2  # mm of the bars
+
+
+def weld(at: complex, first: complex, second: complex, colour: str) -> Polygon:
     """Filled corner between two bars of one link that meet at a point, towards a point on each: they turn together."""
-    a, b = ((end - at) / abs(end - at) for end in (first, second))
-    return (Polygon((at, at + size * a, at + size * b), fill=colour),)
+    return Polygon((at, *(at + WELD * ((end - at) / abs(end - at)) for end in (first, second))), colour)
 
 
 def sense_arc(
@@ -216,26 +198,25 @@ def sense_arc(
     return Arc(at, radius, start, end - sense * 0.7 * turn, stroke), *shapes
 
 
-def cylinder(
-    pivot: complex, rod_end: complex, colour: str = strokes.BLACK, barrel_share: float = 0.6, width: float = 5.0
-) -> tuple[Shape, ...]:
+BARREL, BORE = 0.6, 5.0  # of the length of a cylinder, and its width (mm)
+
+
+def cylinder(pivot: complex, rod_end: complex, colour: str) -> tuple[Shape, ...]:
     """Hydraulic cylinder between the pivot of its barrel and the end of its rod: the drive of a sliding pair."""
     length = abs(rod_end - pivot)
     along = (rod_end - pivot) / length
-    near, far = pivot + min(4.0, 0.15 * length) * along, pivot + barrel_share * length * along
-    side = along * 1j * width / 2
-    stroke = strokes.OUTLINE.coloured(colour)
+    near, far = pivot + min(4.0, 0.15 * length) * along, pivot + BARREL * length * along
+    side = along * 1j * BORE / 2
+    stroke, bar = strokes.OUTLINE.coloured(colour), strokes.LINK.coloured(colour)
     piston = near + 0.55 * (far - near)
-    gap = 0.12 * width / 2
     return (
-        Line(pivot, near, strokes.LINK.coloured(colour)),
-        Polygon((near + side, far + side, far - side, near - side), strokes.WHITE, stroke),
-        Line(piston, rod_end, strokes.LINK.coloured(colour)),
-        Polygon(_rectangle(piston, cmath.phase(on_page(along)), 1.6, width - 2 * gap), fill=colour),
-    )
+        Line(pivot, near, bar),
+        Polygon((near + side, far + side, far - side, near - side), strokes.WHITE, stroke), Line(piston, rod_end, bar),
+        Polygon(_rectangle(piston, cmath.phase(on_page(along)), 1.6, 0.88 * BORE), colour),
+    )  # fmt: skip
 
 
-def spring(start: complex, end: complex, colour: str = strokes.BLACK) -> tuple[Shape, ...]:
+def spring(start: complex, end: complex) -> tuple[Shape, ...]:
     """A helical spring between two points as a zigzag with straight ends (ISO 2162-1, simplified)."""
     way = end - start
     length = abs(way)
@@ -246,7 +227,7 @@ def spring(start: complex, end: complex, colour: str = strokes.BLACK) -> tuple[S
     step, half = (length - 2 * lead) / (2 * turns), min(SPRING_WIDTH, 0.3 * length) / 2
     tops = [lead + step * (k + 0.5) + (half if k % 2 else -half) * 1j for k in range(2 * turns)]
     places = (0j, lead + 0j, *tops, length - lead + 0j, length + 0j)
-    return (Polyline(tuple(start + along * z for z in places), strokes.OUTLINE.coloured(colour)),)
+    return (Polyline(tuple(start + along * z for z in places), strokes.OUTLINE),)
 
 
 PULLING = {"spring": spring}

@@ -161,7 +161,7 @@ def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primit
                 if any(abs(corner - z) < 1.0 for z in here.places.values()):
                     continue
                 along = b if abs(b - corner) > abs(a - corner) else a
-                parts += symbols.weld(on_page(corner), on_page(far), on_page(along), colour)
+                parts.append(symbols.weld(on_page(corner), on_page(far), on_page(along), colour))
     return parts
 
 

@@ -6,7 +6,7 @@ step, and the name follows the key in a free place of the panel.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from itertools import accumulate, zip_longest
 
@@ -26,17 +26,19 @@ APART = 3.0, 1.0  # mm between columns and between lines of the list
 AID = 3  # the rank of what leads on only
 
 
-def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
+def with_labels(piece: Piece, panel: Box) -> Piece:
     """The piece with its labels in their places, in the layer "labels"; some without a place are given up.
 
-    No label leaves the panel or enters a fence.
+    No label leaves the panel.
     """
-    return with_crowd(piece, panel, fences)[0]
+    return with_crowd(piece, panel)[0]
 
 
 def with_crowd(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> tuple[Piece, tuple[Label, ...]]:
-    """The piece as of `with_labels`, and the labels with faults."""
-    labels = [label for label in piece.labels if label.rank < _most(len(piece.labels))]
+    """The piece as of `with_labels`, and the labels with faults; no label enters a fence."""
+    count = len(piece.labels)
+    most = 5 if count < 45 else 4 if count < 60 else 2  # from this rank on they would be too many to be read
+    labels = [label for label in piece.labels if label.rank < most]
     obstacles = Obstacles(areas=tuple(fences), writing=tuple(fences))
     for layer, drawn in piece.layers.items():
         found = obstacles_of(drawn)
@@ -54,11 +56,6 @@ def without(piece: Piece, ids: Collection[str]) -> Piece:
         if not any(isinstance(text, Text) and text.id in ids for text in (one, isinstance(one, Line) and after))
     )  # fmt: skip
     return replace(piece, layers={**piece.layers, "labels": kept}) if len(kept) < len(written) else piece
-
-
-def _most(count: int) -> int:
-    """The rank from which labels are left out at once, because they are too many to be read."""
-    return 5 if count < 45 else 4 if count < 60 else 2
 
 
 def named(
@@ -93,15 +90,10 @@ def _listed(
         _entry(label.text, label.key, label.between if label.text.id in told else "")
         for label in placement.labels if label.text.id in keyed | told
     ]  # fmt: skip
-    names = _list(entries, panel, obstacles + _standing(placed))
-    return (placed, names, placement.crowded) if names or not entries else None
-
-
-def _standing(placed: Iterable[Placed]) -> Obstacles:
-    """Placed labels as obstacles for others."""
     boxes = tuple(one.box for one in placed)
     leaders = tuple((one.leader.start, one.leader.end) for one in placed if one.leader is not None)
-    return Obstacles(solid=leaders, areas=boxes, writing=boxes)
+    names = _list(entries, panel, obstacles + Obstacles(solid=leaders, areas=boxes, writing=boxes))
+    return (placed, names, placement.crowded) if names or not entries else None
 
 
 def _entry(name: Text, key: Text | None, between: Words) -> Text:
