@@ -10,7 +10,7 @@ from graphkin.drawing.boxes import Block, panel
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Run, Stroke, on_page
 from graphkin.drawing.ink.symbols import RESULTANT, ArrowKind, arrow
-from graphkin.drawing.place.labels import Label, Mark
+from graphkin.drawing.place.labels import Label, Mark, mapped
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, cut_to, middle_of, moved_piece
 from graphkin.drawing.text import rich
@@ -39,7 +39,7 @@ class Plate:
 
     def line(self, layer: str, a: complex, b: complex, stroke: Stroke) -> None:
         """A straight line."""
-        self.put(layer, Line(on_page(a), on_page(b), stroke))
+        self.put(layer, Line.between(a, b, stroke))
 
     def circle(self, layer: str, at: complex, radius: float, fill: str = "", stroke: Stroke | None = None) -> None:
         """A circle; a dot where it is filled."""
@@ -50,8 +50,8 @@ class Plate:
         toward: tuple[float, ...] = (), step: int | None = None, between: Words = "",
     ) -> None:  # fmt: skip
         """A name of a point, or of the line between two; as `Label.of`."""
-        here = (on_page(mark[0]), on_page(mark[1])) if isinstance(mark, tuple) else on_page(mark)
-        self.labels += [Label.of(runs, here, id, colour=colour, rank=rank, toward=toward, step=step, between=between)]
+        at = mapped(mark, on_page)
+        self.labels += [Label.of(runs, at, id, colour=colour, rank=rank, toward=toward, step=step, between=between)]
 
     def arrow(
         self, layer: str, id: str, tail: complex, tip: complex, symbol: RichText, size: float = 3.0, *,

@@ -64,9 +64,9 @@ def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primit
         elif step is not None and step < first:
             found += strokes.pale((thing,), FADED, FADED + 0.2)
         else:
-            new = step is not None and isinstance(thing, Group) and not {"inset", "ring"} & set(thing.classes)
-            halo = tuple(band for child in thing.children for band in _band(child)) if new else ()
-            found += [Group(halo, classes=("new",))] if halo else []
+            if step is not None and isinstance(thing, Group) and not {"inset", "ring"} & set(thing.classes):
+                halo = tuple(band for child in thing.children for band in _band(child))
+                found += [Group(halo, classes=("new",))] if halo else []
             found.append(thing)
     return tuple(found)
 

@@ -198,14 +198,14 @@ def _draw(plate: Plate, made: Sequence[DrawnStroke], step: int, room: Box) -> No
     for stroke in made:
         match stroke:
             case Bar(a, b, _, kind):
-                cut = cut_to((Line(on_page(a), on_page(b), _LINES[kind]),), room)
+                cut = cut_to((Line.between(a, b, _LINES[kind]),), room)
                 if kind not in ("given", "mechanism"):
                     lines += cut
                     continue
                 for line in cut:
                     plate.put("mechanism", line, step=step)
             case Ray(through, _, to) if to is not None:
-                lines += cut_to((Line(on_page(through), on_page(to), strokes.DIRECTION),), room)
+                lines += cut_to((Line.between(through, to, strokes.DIRECTION),), room)
             case CompassArc():
                 lines += _arcs(stroke, room)
             case Angle(at, a, b, value, name):
@@ -500,7 +500,7 @@ def _cam(scene: Mechanism, cam: LawCam, sheet: Sheet, begun: bool = False) -> Bl
     follower: list[Primitive] = [Circle(on_page(start.point), cam.roller * mm, stroke=bar)] if cam.roller else []
     follower += [_face(start, 8.0, bar)] if cam.flat else []
     end = start.line if cam.turns else start.point + (far - abs(start.point) + 12.0) * start.way
-    follower.append(Line(on_page(start.point), on_page(end), bar))
+    follower.append(Line.between(start.point, end, bar))
     if cam.turns:
         follower += symbols.fixed_pivot(on_page(start.line))
     elif not cam.flat:
@@ -546,9 +546,9 @@ def _draw_inversion(plate: Plate, step: Step, drawn_at: Sequence[CamStation], re
                 ends[k] = at
             case Ray(foot, along, None):
                 ends[k] = foot + math.sqrt(max(reach**2 - abs(foot) ** 2, 0.0)) * along
-                lines.append(Line(on_page(foot), on_page(ends[k]), strokes.CONSTRUCTION))
+                lines.append(Line.between(foot, ends[k], strokes.CONSTRUCTION))
             case Ray(through, along, to) if to is not None:
-                lines.append(Line(on_page(through), on_page(to + 6.0 * along), strokes.DIRECTION))
+                lines.append(Line.between(through, to + 6.0 * along, strokes.DIRECTION))
             case Bar():
                 lines.append(_face(drawn_at[k], half, strokes.CONSTRUCTION))
     for k, at in ends.items():
@@ -571,7 +571,7 @@ def _face(d: CamStation, half: float, stroke: Stroke) -> Line:
     across = 1j * d.way
     contact = ((d.contact - d.point) * across.conjugate()).real
     low, high = min(-half, contact - 3.0), max(half, contact + 3.0)
-    return Line(on_page(d.point + low * across), on_page(d.point + high * across), stroke)
+    return Line.between(d.point + low * across, d.point + high * across, stroke)
 
 
 def _table(scene: Mechanism, cam: LawCam, sheet: Sheet) -> Block:

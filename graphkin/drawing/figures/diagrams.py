@@ -12,15 +12,7 @@ from dataclasses import replace
 from functools import partial
 
 from graphkin.account.given import drivers
-from graphkin.account.headings import (
-    FIGURE_WORDS,
-    describe,
-    dimensions_in,
-    figure_title,
-    punctuation,
-    remarks,
-    term,
-)
+from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, figure_title, punctuation, remarks, term
 from graphkin.account.voice import Account
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
@@ -31,12 +23,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, line, panel, prose, row
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink.primitives import Text, page_direction
-from graphkin.drawing.parts.insets import (
-    mechanism_with_inset,
-    polygon_with_insets,
-    scan_piece,
-    strip_height,
-)
+from graphkin.drawing.parts.insets import mechanism_with_inset, polygon_with_insets, scan_piece, strip_height
 from graphkin.drawing.parts.mechanism import bare_mechanism, mechanism_piece
 from graphkin.drawing.parts.polygon import PolygonOnPage, extent, polygon_piece
 from graphkin.drawing.place.labels import Label

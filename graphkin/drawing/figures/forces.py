@@ -14,15 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.account.forces import SHORT as SEEN
-from graphkin.account.forces import (
-    ForceStage,
-    force_stages,
-    lever_scale,
-    lever_sum,
-    read_off,
-    spots_of,
-    told_of,
-)
+from graphkin.account.forces import ForceStage, force_stages, lever_scale, lever_sum, read_off, spots_of, told_of
 from graphkin.account.given import given_loads
 from graphkin.account.headings import figure_title
 from graphkin.account.notation import Notation, as_vector, force_letters, pole
@@ -274,8 +266,8 @@ def _sketch(page: FigurePage, stage: ForceStage, times: float, tag: str) -> Piec
             # where it acts together with its couple: a line at the distance h from the centre of mass
             along, at, centre = unit(pushed.force), pushed.shifted * times, pushed.centre * times
             if abs(at - centre) >= 1.0:
-                line = Line(on_page(at - 5.0 * along), on_page(at + ARROW * along), strokes.DIRECTION)
-                across = Line(on_page(centre), on_page(at), strokes.DIMENSION)
+                line = Line.between(at - 5.0 * along, at + ARROW * along, strokes.DIRECTION)
+                across = Line.between(centre, at, strokes.DIMENSION)
                 plate.put("construction", line, across, classes=("shifted",))
                 plate.name(rich(sign("h", link), 2.8), (centre, at), colour=strokes.GREY, rank=2)
     plate.labels += (*labels, *marks.labels)
@@ -369,7 +361,7 @@ def _middle(sheet: Sheet, link: str) -> complex:
 def _arms(plate: Plate, stage: ForceStage, times: float) -> None:
     """Arms of the moments by which parts were found, from the point to the line of each force."""
     for step in stage.group.moments(*BY_MOMENTS, "balance"):
-        lines = [Line(on_page(term.about * times), on_page(term.foot * times), strokes.DIRECTION)
+        lines = [Line.between(term.about * times, term.foot * times, strokes.DIRECTION)
                  for term in step.terms if term.arm is not None and abs(term.arm) * times >= 1.0]  # fmt: skip
         if lines:
             plate.put("construction", *lines, classes=("arms",), step=step.number)
@@ -431,7 +423,7 @@ def _drawn_polygon(
         tail, tip = vector.tail + shift, vector.tip + shift
         step = group.in_polygon(vector, links)
         if shift:
-            aside = (Line(on_page(z), on_page(w), strokes.CONSTRUCTION)
+            aside = (Line.between(z, w, strokes.CONSTRUCTION)
                      for z, w in ((vector.tail, tail), (vector.tip, tip)))  # fmt: skip
             plate.put("construction", *aside, step=step)
         arrow(vector, tail, tip, step, 0 if not vector.known or abs(vector.span) > 3.0 else 2)
@@ -451,7 +443,7 @@ def _drawn_polygon(
             # the line along which it was drawn, a little past its ends
             past = 6.0 * unit(vector.span)
             for z, w in ((vector.tail, vector.tail - past), (vector.tip, vector.tip + past)):
-                plate.put("construction", Line(on_page(z), on_page(w), strokes.DIRECTION), classes=("direction",),
+                plate.put("construction", Line.between(z, w, strokes.DIRECTION), classes=("direction",),
                           step=group.in_polygon(vector, links))  # fmt: skip
     return with_labels(moved_piece(plate.piece, panel.centre - _box(vectors).centre), panel)
 
@@ -551,7 +543,7 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
             foot = -1j * along * term.arm / per_mm
             lines = [Line(0j, on_page(foot), strokes.DIMENSION)]
             if abs(foot - at) > SEEN:
-                lines.append(Line(on_page(foot), on_page(at), strokes.DIRECTION))
+                lines.append(Line.between(foot, at, strokes.DIRECTION))
             plate.put("velocity", *lines, classes=("arm",))
             arm = force_letters(convention, Symbol("arm", name=str(term.symbol)))
             arm += sign("'") if turned else ""

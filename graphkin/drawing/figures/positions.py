@@ -232,7 +232,7 @@ def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
     back: tuple[Primitive, ...] = ()
     if (crank := _limits_of_crank(shown)) is not None:  # drawn beyond its pivot in its second limit position
         _, pivot, _, second = crank
-        back = (Line(on_page(pivot), on_page(pivot - 1.35 * second), strokes.DIRECTION),)
+        back = (Line.between(pivot, pivot - 1.35 * second, strokes.DIRECTION),)
     answers = Piece({"answers": back} if back else {})
     drawn = joined((paths, *numbered, *limits, *least, answers, bare_mechanism(sheet, letters)))
     whole = joined((drawn, _dimensions(shown, drawn), _numbers(shown)))
@@ -254,7 +254,7 @@ def _position(sheet: Sheet, letters: Notation, stroke: Stroke, id: str) -> Piece
     for shape in here.shapes:
         pen = stroke.coloured(here.colour(shape.link))
         parts += [Polygon(tuple(map(on_page, shape.corners)), "", pen)] if shape.corners else []
-        parts += [Line(on_page(a), on_page(b), pen) for a, b in shape.bars]
+        parts += [Line.between(a, b, pen) for a, b in shape.bars]
     for b in (slider for slider in here.sliders if not slider.slide.higher):
         half, across = b.along * BLOCK_LENGTH * 0.35, 1j * b.along * BLOCK_WIDTH * 0.35
         corners = (b.at + half + across, b.at + half - across, b.at - half - across, b.at - half + across)
@@ -399,7 +399,7 @@ def _gamma(shown: Shown) -> Piece:
         start = cmath.phase(-first)
     turn = math.remainder(end - start, math.tau)
     plate, words = Plate(), rich(sign("γ", "min") + f" = {number(math.degrees(gamma), 5)}°", 2.8)
-    lines = [Line(on_page(joint), on_page(joint + 11.0 * cmath.rect(1.0, angle)), strokes.DIRECTION)
+    lines = [Line.between(joint, joint + 11.0 * cmath.rect(1.0, angle), strokes.DIRECTION)
              for angle in (start, start + turn)]  # fmt: skip
     arc = angle_dimension(on_page(joint), 8.0, start, start + turn, words)[:2]
     plate.put("answers", *lines, *arc, id="least-gamma")

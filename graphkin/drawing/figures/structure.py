@@ -221,10 +221,10 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
         shape = next((shape for shape in here.shapes if shape.link == name), None)
         ends = [here.places[p] for p in (held.bar if shape is None else held.points) if p in here.places]
         if shape is not None:
-            parts += [Line(on_page(a), on_page(b), strokes.LINK.coloured(here.colour(name))) for a, b in shape.slots]
-            parts += [Line(on_page(ends[0]), on_page(z), dashed) for z in ends[1:] if z not in shape.points.values()]
+            parts += [Line.between(a, b, strokes.LINK.coloured(here.colour(name))) for a, b in shape.slots]
+            parts += [Line.between(ends[0], z, dashed) for z in ends[1:] if z not in shape.points.values()]
         elif len(ends) > 1:  # the bar that replaces a contact
-            parts.append(Line(on_page(ends[0]), on_page(ends[1]), dashed))
+            parts.append(Line.between(ends[0], ends[1], dashed))
     # where links touch every link has its number already
     numbered = {shape.link for shape in here.shapes if shape.longest or here.scene.higher_pairs}
     known = {b.slide.key: b for b in here.sliders}
@@ -237,14 +237,14 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
         parts += symbols.block(on_page(at), phase(along), colour)
         ends = [at - 8.0 * along, at + 8.0 * along]
         if slide.b not in links:  # the guide belongs to another link
-            parts.append(Line(on_page(ends[0]), on_page(ends[1]), strokes.DIRECTION))
+            parts.append(Line.between(ends[0], ends[1], strokes.DIRECTION))
         elif stands:  # along a face, from its link to beyond the block
             origin = here.sheet.poses[slide.b].origin
             foot = at + dot(origin - at, along) * along
             far = max(ends, key=lambda z: abs(z - foot))
             dashed = strokes.REDUNDANT.coloured(here.colour(slide.b))
             ways = (origin, foot), (foot, far)
-            parts += [Line(on_page(a), on_page(b), dashed) for a, b in ways if abs(b - a) > TOUCH]
+            parts += [Line.between(a, b, dashed) for a, b in ways if abs(b - a) > TOUCH]
         if slide.a in links and slide.a in here.scene.by_name and slide.a not in numbered:
             numbered.add(slide.a)
             labels.append(Label.of(plain(slide.a, bold=True), on_page(at), colour=colour, rank=1))

@@ -150,7 +150,7 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, steps: Steps, start: 
         if link in scene.by_name:
             colour, a, b = strokes.colour_of_link(scene, link), bar.a, bar.b
             over = 3.0 * (b - a) / abs(b - a)
-            line = Line(on_page(a - over), on_page(b + over), strokes.LINK.coloured(colour))
+            line = Line.between(a - over, b + over, strokes.LINK.coloured(colour))
             step = steps[k, link]
             plate.put(plan.order, line, id=f"plan-line-{link}{tag}", classes=("plan-line",), step=step)
             plate.name(rich(link, 3.2, bold=True), (a, b), f"label-plan-line-{link}{tag}", colour=colour, step=step)
@@ -189,7 +189,7 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan, steps: Steps) -> Piece:
         at, colour = foot(line) + deep, strokes.colour_of_link(sheet.scene, line.link)
         ray = Line(0j, on_page(at), strokes.RELATIVE.coloured(colour))
         plate.put(plan.order, ray, id=f"plan-rate-{line.link}", classes=("plan-rate",), step=read_in[line.link])
-        tick = Line(on_page(at + 1.2j), on_page(at - 1.2j), strokes.OUTLINE)
+        tick = Line.between(at + 1.2j, at - 1.2j, strokes.OUTLINE)
         plate.put("construction", tick, step=read_in[line.link])
         marked.setdefault(round(foot(line), 2), []).append(line.link)
     for x, links in marked.items():
@@ -267,7 +267,7 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
 
     def draw(link: str, *places: complex) -> None:
         stroke = strokes.LINK.coloured(strokes.colour_of_link(scene, link))
-        shapes.setdefault(link, []).extend(Line(on_page(a), on_page(b), stroke) for a, b in pairwise(places))
+        shapes.setdefault(link, []).extend(Line.between(a, b, stroke) for a, b in pairwise(places))
 
     def bar(link: str, plane: int, low: float, high: float) -> None:
         ends, id = (at(plane, low), at(plane, high)), f"label-plan-wheel-{link}"

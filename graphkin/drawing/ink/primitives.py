@@ -10,13 +10,12 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias, overload
-
-from graphkin.plane import Values
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
     from graphkin.plane import Points
 
+Places = TypeVar("Places", complex, "Points")
 PALE = 0.5  # how much of a scan is seen
 
 Segment: TypeAlias = tuple[complex, complex]
@@ -28,11 +27,7 @@ def page_direction(angle: float) -> complex:
     return cmath.rect(1.0, angle).conjugate()
 
 
-@overload
-def on_page(z: complex) -> complex: ...
-@overload
-def on_page(z: Points) -> Points: ...
-def on_page(z: Values) -> Values:
+def on_page(z: Places) -> Places:
     """A place (mm) of a mechanism or polygon, whose y axis points up, on the page, whose points down; or places."""
     return z.conjugate()
 
@@ -59,6 +54,11 @@ class Line(NamedTuple):
     end: complex
     stroke: Stroke
     covered: float = 0.0
+
+    @classmethod
+    def between(cls, a: complex, b: complex, stroke: Stroke) -> Line:
+        """A line between two places (mm) of a mechanism or polygon, whose y axis points up."""
+        return cls(on_page(a), on_page(b), stroke)
 
     @property
     def inked_end(self) -> complex:

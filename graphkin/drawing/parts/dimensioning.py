@@ -373,7 +373,7 @@ def _off_pivot(here: MechanismOnPaper, room: DimensionClearance, slider: Slider)
             continue  # the problem gives no distance straight from the pivot
         foot = pivot + given * way * here.scene.units.metres / here.sheet.scales.length
         end = min((slider.at + s * GUIDE_LENGTH / 2 * slider.along for s in (1, -1)), key=lambda z: abs(z - foot))
-        along = (Line(on_page(end), on_page(foot), strokes.DIMENSION),) if abs(end - foot) > SHORTEST else ()
+        along = (Line.between(end, foot, strokes.DIMENSION),) if abs(end - foot) > SHORTEST else ()
         found = _apart(room, (pivot,), (foot,), way, abs(given), also=along)
         if found is not None:
             return found

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections.abc import Collection, Iterator
+from itertools import combinations
 
 from graphkin.account.given import slide_index
 from graphkin.account.notation import Notation
@@ -27,7 +28,6 @@ from graphkin.drawing.ink.primitives import (
     Primitive,
     Segment,
     Stroke,
-    Text,
     on_page,
     page_direction,
 )
@@ -48,7 +48,7 @@ from graphkin.drawing.parts.touching import (
     wheels_of,
     within_round_body,
 )
-from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.labels import Label, Mark, mapped
 from graphkin.drawing.place.obstacles import clearest_arc
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, rich
@@ -81,13 +81,11 @@ def links_alone(
         stroke = strokes.LINK.coloured(colour)
         if shape.corners:
             parts.append(Polygon(tuple(map(on_page, shape.corners)), strokes.tint(colour), stroke))
-        parts += [Line(on_page(a), on_page(b), stroke) for a, b in shape.bars]
+        parts += [Line.between(a, b, stroke) for a, b in shape.bars]
         parts += [*outlines_of(here, shape.link, replaced), *wheels_of(here, shape.link)]
-        text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
-        if shape.longest:
-            labels.append(Label(text, (on_page(shape.longest[0]), on_page(shape.longest[1])), rank=rank))
-        elif here.scene.higher_pairs:
-            labels.append(Label(text, on_page(here.sheet.poses[shape.link].origin), rank=rank))
+        if shape.longest or here.scene.higher_pairs:
+            mark = shape.longest or here.sheet.poses[shape.link].origin
+            labels.append(Label.of(plain(shape.link, bold=True), mapped(mark, on_page), colour=colour, rank=rank))
     return parts, labels
 
 
@@ -124,42 +122,37 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
         clear = shape.redundant or here.scene.question.background is not None  # what a scan shows is seen through it
         parts.append(Polygon(corners, "" if clear else strokes.tint(colour), stroke))
     parts += [*outlines_of(here, shape.link), *wheels_of(here, shape.link)]
-    hidden = {b.slide.b for b in here.sliders if b.slide.key in here.cylinders}
-    if shape.link not in hidden:
-        parts += [Line(on_page(start), on_page(end), stroke) for start, end in shape.bars]
+    barrels = [b for b in here.sliders if b.slide.b == shape.link and b.slide.key in here.cylinders]
+    if not barrels:
+        parts += [Line.between(start, end, stroke) for start, end in shape.bars]
         texture = strokes.texture(here.scene.order[shape.link])  # distinguishes its lines in black and white
         if texture is not None and not shape.redundant:
-            edges = zip(shape.corners, (*shape.corners[1:], *shape.corners[:1]), strict=True)
-            parts += [Line(on_page(start), on_page(end), texture) for start, end in (*shape.bars, *edges)]
+            parts += [Line.between(start, end, texture) for start, end in (*shape.bars, *shape.edges)]
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
         parts += symbols.slot(on_page(start), on_page(end), colour)
     parts += block_on_circle(here, shape.link)
-    for b in here.sliders:
-        if b.slide.b == shape.link and b.slide.key in here.cylinders:
-            parts += symbols.cylinder(on_page(here.pivot(b)), on_page(b.at), colour)
-    for b in here.sliders:
-        if b.slide.a == shape.link and not b.slide.higher and b.slide.key not in here.cylinders:
+    for b in barrels:
+        parts += symbols.cylinder(on_page(here.pivot(b)), on_page(b.at), colour)
+    for b in (slider for slider in here.sliders if slider.slide.a == shape.link):
+        if b.slide.key in here.cylinders:
+            parts.append(Line.between(*here.rod(b), strokes.LINK.coloured(colour)))
+        elif not b.slide.higher:
             shrink = 0.72 ** here.nested(shape.link)
             size = symbols.BLOCK_LENGTH * shrink, symbols.BLOCK_WIDTH * shrink
             parts += symbols.block(on_page(b.at), phase(b.along), colour, *size)
-        if b.slide.a == shape.link and b.slide.key in here.cylinders:
-            start, end = here.rod(b)
-            parts.append(Line(on_page(start), on_page(end), strokes.LINK.coloured(colour)))
     return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",), since=here.since(shape.link))
 
 
 def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primitive]:
     """Filled corners where two bars of one link meet at an angle with no joint between them."""
     parts: list[Primitive] = []
-    for i, (a, b) in enumerate(shape.bars):
-        for p, q in shape.bars[i + 1 :]:
-            for corner, far in ((p, q), (q, p)):
-                e = (b - a) / abs(b - a)
-                if abs(cross(corner - a, e)) > 1e-3 or abs(cross((far - corner) / abs(far - corner), e)) < 0.1:
-                    continue
-                if any(abs(corner - z) < 1.0 for z in here.places.values()):
-                    continue
+    for (a, b), bar in combinations(shape.bars, 2):
+        for corner, far in (bar, bar[::-1]):
+            e = unit(b - a)
+            if abs(cross(corner - a, e)) > 1e-3 or abs(cross(unit(far - corner), e)) < 0.1:
+                continue
+            if all(abs(corner - z) >= 1.0 for z in here.places.values()):
                 along = b if abs(b - corner) > abs(a - corner) else a
                 parts.append(symbols.weld(on_page(corner), on_page(far), on_page(along), colour))
     return parts
@@ -191,12 +184,12 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
     if any(s.higher and s.pin == point for s in here.scene.slides):
         return [*symbols.pin(on_page(z), strokes.BLACK)]
     thin = strokes.OUTLINE
-    return [Line(on_page(z - 1.2), on_page(z + 1.2), thin), Line(on_page(z - 1.2j), on_page(z + 1.2j), thin)]
+    return [Line.between(z - 1.2, z + 1.2, thin), Line.between(z - 1.2j, z + 1.2j, thin)]
 
 
 def _letter(here: MechanismOnPaper, point: str, since: int | None) -> Label:
     z = here.places[point]
-    away = -added_up((w / abs(w) for w in here.ways(z)), 0j)
+    away = -added_up(map(unit, here.ways(z)), 0j)
     letter, toward = rich(here.letters.point(point)), (phase(away),) if abs(away) > 0.1 else ()
     return Label.of(letter, on_page(z), f"label-point-{point}", toward=toward, since=since)
 
@@ -210,22 +203,19 @@ def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
                 stroke = strokes.LINK.coloured(here.colour(shape.link))
                 for other in (shape.corners[i - 1], shape.corners[(i + 1) % len(shape.corners)]):
                     reach = min(symbols.BLOCK_LENGTH * 0.7, abs(other - z))
-                    parts.append(Line(on_page(z), on_page(z + reach * (other - z) / abs(other - z)), stroke))
+                    parts.append(Line.between(z, z + reach * unit(other - z), stroke))
     return parts
 
 
 def _through(here: MechanismOnPaper, z: complex, held: list[str]) -> list[Primitive]:
     """A bar that continues beyond a joint is drawn through its circle."""
     parts: list[Primitive] = []
-    for shape in here.shapes:
-        if shape.link not in held:
-            continue
+    for shape in (one for one in here.shapes if one.link in held):
         for a, b in shape.bars:
-            e = (b - a) / abs(b - a)
+            e = unit(b - a)
             if abs(cross(z - a, e)) < 1e-3 and 2.0 < dot(z - a, e) < abs(b - a) - 2.0:
-                r = symbols.JOINT_RADIUS
-                stroke = strokes.LINK.coloured(here.colour(shape.link))
-                parts.append(Line(on_page(z - r * e), on_page(z + r * e), stroke))
+                r, stroke = symbols.JOINT_RADIUS, strokes.LINK.coloured(here.colour(shape.link))
+                parts.append(Line.between(z - r * e, z + r * e, stroke))
     return parts
 
 
@@ -234,22 +224,19 @@ def link_names(here: MechanismOnPaper, panel: Box | None = None) -> Piece:
     return Piece(labels=(*_numbers(here), *_guides(here, panel), *_frame_name(here)))
 
 
-def _number(here: MechanismOnPaper, link: str, colour: str) -> Text:
-    classes = "label", "link-number"
-    return Text(0j, plain(link, bold=True), "start", colour, f"label-link-{link}", classes, since=here.since(link))
+def _number(here: MechanismOnPaper, link: str, mark: Mark, *toward: float) -> Label:
+    """The number of a link at a part of it."""
+    return Label.of(plain(link, bold=True), mapped(mark, on_page), f"label-link-{link}", colour=here.colour(link),
+                    rank=1, toward=toward, classes=("link-number",), since=here.since(link))  # fmt: skip
 
 
 def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
-    for shape in here.shapes:
-        text = _number(here, shape.link, here.colour(shape.link))
-        whole = _cylinder_part(here, shape.link) or shape.longest
-        block = next((b.at for b in here.sliders if b.slide.a == shape.link), None)
-        if whole is not None:
-            yield Label(text, (on_page(whole[0]), on_page(whole[1])), rank=1)
-        elif block is not None:
-            yield Label(text, on_page(block), rank=1)
-        elif (body := within_round_body(here, shape.link)) is not None:
-            yield Label(text, on_page(body), rank=1)
+    for link, longest in ((shape.link, shape.longest) for shape in here.shapes):
+        whole = _cylinder_part(here, link) or longest
+        block = next((b.at for b in here.sliders if b.slide.a == link), None)
+        mark = whole or (within_round_body(here, link) if block is None else block)
+        if mark is not None:
+            yield _number(here, link, mark)
 
 
 def _cylinder_part(here: MechanismOnPaper, link: str) -> tuple[complex, complex] | None:
@@ -277,10 +264,10 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
                          and touch.cam.follower == b.slide.b and b.slide.key in here.replaced_pairs), None)  # fmt: skip
             start, edge = (b.at, edge) if face is None else (face, FLAT)
             letter = rich(here.letters.guide(name, here.ground), 3.0)
-            text = Text(0j, letter, "start", strokes.BLACK, f"label-guide-{b.slide.b}-{name}", ("label",))
             ends = on_page(start), on_page(start + edge * b.along)
             inside = panel.grown(-0.5).clip(*ends) if panel is not None else ends
-            yield Label(text, (inside or ends)[1], (phase(b.along),), 0)
+            id = f"label-guide-{b.slide.b}-{name}"
+            yield Label.of(letter, (inside or ends)[1], id, toward=(phase(b.along),))
 
 
 def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
@@ -289,10 +276,10 @@ def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
     if spots:
         foot = next(iter(here.feet.values()), None)
         away = 3.6j if foot is None else complex(math.cos(foot), math.sin(foot)) * 5
-        yield Label(_number(here, here.ground, strokes.BLACK), on_page(spots[0] + away), (phase(away),), 1)
+        yield _number(here, here.ground, spots[0] + away, phase(away))
     elif (face := beside_face_of_frame(here)) is not None:
         at, into = face
-        yield Label(_number(here, here.ground, strokes.BLACK), on_page(at), (phase(into),), 1)
+        yield _number(here, here.ground, at, phase(into))
 
 
 def mechanism_piece(sheet: Sheet, letters: Notation, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
@@ -431,27 +418,25 @@ def _slide_arrow(here: MechanismOnPaper, driver: Driver) -> Piece:
     head = arrowhead(tip, tip - tail, POINTER.head_length, 1.0, colour)
     line = Line(tail, tip, Stroke(0.25, (), colour), covered=1.6)
     letter = "V" if here.letters.convention == "us" else "v"
-    named = rich(sign(letter, slide_index(here.sheet, driver.key)))
-    text = Text(0j, named, "start", strokes.BLACK, f"label-{id}", ("label",))
-    arrow = Group((line, head), id=id, classes=("driver",))
-    piece = Piece({"mechanism": (arrow,)}, (Label(text, (tail, tip), (phase(side),)),))
+    letters = rich(sign(letter, slide_index(here.sheet, driver.key)))
+    name = Label.of(letters, (tail, tip), f"label-{id}", toward=(phase(side),))
+    piece = Piece({"mechanism": (Group((line, head), id=id, classes=("driver",)),)}, (name,))
     return dated(piece, here.since(driver.key.split("/")[0]))
 
 
 def _centres_of_turn(here: MechanismOnPaper, link: str, other: str) -> list[complex]:
     """The centres for an arc of sense: the pivot of the link, else places along it."""
-    mine = here.scene.by_name[link].points
     theirs = here.scene.by_name[other].points
-    for point in mine:
+    for point in here.scene.by_name[link].points:
         if point in theirs and point in here.places:
             return [here.places[point]]
-    shape = next((s for s in here.shapes if s.link == link), None)
-    if shape is not None and shape.corners:
+    shape = next((one for one in here.shapes if one.link == link), None)
+    if shape is None or shape.longest is None:
+        return [here.sheet.poses[link].origin]
+    if shape.corners:
         return [added_up(shape.corners, 0j) / len(shape.corners)]
-    if shape is not None and shape.longest is not None:
-        a, b = shape.longest
-        return [a + share * (b - a) for share in (0.5, 0.34, 0.66)]
-    return [here.sheet.poses[link].origin]
+    a, b = shape.longest
+    return [a + share * (b - a) for share in (0.5, 0.34, 0.66)]
 
 
 def _springs(here: MechanismOnPaper) -> Piece:
@@ -479,7 +464,7 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
     """Compass arcs near the points that they find, drawn over a block that would hide all but their ends; from the foot
     of a tangent the line to its pivot."""
     under: list[Primitive] = [
-        Group((Line(on_page(s.a), on_page(s.b), strokes.CONSTRUCTION),), classes=("tangent",), step=step.number)
+        Group((Line.between(s.a, s.b, strokes.CONSTRUCTION),), classes=("tangent",), step=step.number)
         for step in here.steps if isinstance(step, PlaceStep) and step.reason == "tangent"
         for s in step.strokes if isinstance(s, Bar)
     ]  # fmt: skip
@@ -492,21 +477,17 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
     for _, arc in arcs:
         bars.setdefault(same_place(arc.at), set()).add(unit(arc.centre - arc.at))
     for step, arc in arcs:
-        there = bars[same_place(arc.at)]
         middle = phase(arc.at - arc.centre)
         half = min(COMPASS / arc.radius, math.pi * 0.9)
-        shown = [not _along_a_bar(arc, side, there) for side in (-1, 1)]
+        # an arc is shown to the side (1 counter-clockwise) to which it begins along no bar that meets it
+        ways = [side * 1j * unit(arc.at - arc.centre) for side in (-1, 1)]
+        shown = [not any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars[same_place(arc.at)])
+                 for way in ways]  # fmt: skip
         first, last = (half * (one or not any(shown)) for one in shown)
         shape = Arc(on_page(arc.centre), arc.radius, middle - first, middle + last, strokes.CONSTRUCTION)
         covered = any(abs(block.at - arc.at) < SAME for block in here.sliders)
         (over if covered else under).append(Group((shape,), classes=("compass",), step=step.number))
     return Piece({"construction": tuple(under), "mechanism": tuple(over)})
-
-
-def _along_a_bar(arc: CompassArc, side: int, bars: set[complex]) -> bool:
-    """Whether an arc to a side (1 counter-clockwise) begins nearly along a bar that meets it."""
-    way = side * 1j * unit(arc.at - arc.centre)
-    return any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars)
 
 
 def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
@@ -520,7 +501,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
             continue
         if isinstance(step, PlaceStep) and step.reason == "special point":
             lines = tuple(
-                Line(on_page(s.a), on_page(s.b), strokes.DIRECTION)
+                Line.between(s.a, s.b, strokes.DIRECTION)
                 for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
             )  # fmt: skip
             over.append(Group(lines, id=f"special-{step.point}", classes=("special",), step=step.number))
@@ -528,7 +509,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
             curves += 1
             parts: list[Primitive] = [Polyline(tuple(map(on_page, curve.curve)), strokes.TRIAL_CURVE)]
             for number, z in enumerate(curve.at, 1):
-                parts += [Line(on_page(z + w), on_page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
+                parts += [Line.between(z + w, z - w, strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
                 name = f"label-trial-{curve.point}-{number}"
                 numeral = rich(str(number), 2.0)
                 labels.append(Label.of(numeral, on_page(z), name, colour=strokes.GREY, rank=4, classes=("trial",),
@@ -537,6 +518,6 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
             drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
         if step.reason == "positions":
             goals = [s for s in step.strokes if isinstance(s, Bar)]
-            ways = [Line(on_page(s.a), on_page(s.b), strokes.DIRECTION) for s in goals]
+            ways = [Line.between(s.a, s.b, strokes.DIRECTION) for s in goals]
             drawn += [Group((way,), classes=("trial",), step=step.number) for way in ways]
     return Piece({"construction": tuple(drawn), "mechanism": tuple(over)}, tuple(labels))

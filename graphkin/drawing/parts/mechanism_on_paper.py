@@ -11,6 +11,7 @@ from cmath import phase
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 from graphkin.account.notation import Notation
 from graphkin.construction.board.sheet import Sheet
@@ -53,10 +54,14 @@ class LinkShape:
     redundant: bool = False
 
     @cached_property
+    def edges(self) -> tuple[Segment, ...]:
+        """The edges of its area."""
+        return tuple(pairwise((*self.corners, *self.corners[:1])))
+
+    @cached_property
     def segments(self) -> tuple[Segment, ...]:
         """Its straight strokes."""
-        edges = zip(self.corners, (*self.corners[1:], *self.corners[:1]), strict=True)
-        return (*self.bars, *self.slots, *edges)
+        return (*self.bars, *self.slots, *self.edges)
 
     @cached_property
     def longest(self) -> Segment | None:
@@ -326,5 +331,4 @@ def _apart(places: tuple[complex, ...]) -> tuple[complex, ...]:
 
 def _inside(z: complex, corners: tuple[complex, ...]) -> bool:
     """Whether a place lies in a convex area whose corners run counter-clockwise."""
-    ends = zip(corners, (*corners[1:], *corners[:1]), strict=True)
-    return len(corners) > 2 and all(cross(b - a, z - a) > 0 for a, b in ends)
+    return len(corners) > 2 and all(cross(b - a, z - a) > 0 for a, b in pairwise((*corners, corners[0])))

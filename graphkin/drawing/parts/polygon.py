@@ -20,15 +20,7 @@ from graphkin.account.spoken import spoken_ref, spoken_vector
 from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
 from graphkin.construction.board.scales import SERIES
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import (
-    Bar,
-    DiagramName,
-    Image,
-    Mark,
-    Ray,
-    Step,
-    Vector,
-)
+from graphkin.construction.board.steps import Bar, DiagramName, Image, Mark, Ray, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Run, Segment, Stroke, Text, on_page

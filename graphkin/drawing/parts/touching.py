@@ -69,7 +69,7 @@ def _ring(centre: complex, radius: float, outside: bool, colour: str) -> Iterato
     for k in range(count):
         way = complex(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
         foot = centre + radius * way
-        yield Line(on_page(foot), on_page(foot + away * way * complex(1, 0.8)), strokes.HATCHING.coloured(colour))
+        yield Line.between(foot, foot + away * way * complex(1, 0.8), strokes.HATCHING.coloured(colour))
 
 
 def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
@@ -85,10 +85,10 @@ def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
         if rack == link:
             along = 1j * body
             reach = 2.2 * FACE * along
-            parts.append(Line(on_page(foot - reach), on_page(foot + reach), strokes.PITCH.coloured(colour)))
+            parts.append(Line.between(foot - reach, foot + reach, strokes.PITCH.coloured(colour)))
             edge = body * 2.0
             ends = (foot - reach + edge, foot + reach + edge)
-            edge_of_body = Line(on_page(ends[0]), on_page(ends[1]), strokes.LINK.coloured(colour))
+            edge_of_body = Line.between(ends[0], ends[1], strokes.LINK.coloured(colour))
             parts += _hatched(*ends, body) if link == here.ground else [edge_of_body]
     return parts
 
@@ -152,7 +152,7 @@ def profiles(here: MechanismOnPaper) -> Iterator[Group]:
         far_side = one.contact + one.roller * one.normal
         thin = ((one.contact - AT_CAM * one.normal, far_side + AT_CAM * one.normal),
                 (one.point - AT_CAM * across, one.point + AT_CAM * across))  # fmt: skip
-        lines = tuple(Line(on_page(a), on_page(b), strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
+        lines = tuple(Line.between(a, b, strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
         yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",), since=here.stands)
 
 
@@ -174,9 +174,9 @@ def _follower_end(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Primitive
     if one.roller:
         yield Circle(on_page(one.point), one.roller, stroke=stroke)
     if one.cam.flat:
-        yield Line(on_page(one.point - FLAT * across), on_page(one.point + FLAT * across), stroke)
+        yield Line.between(one.point - FLAT * across, one.point + FLAT * across, stroke)
         if abs(one.contact - one.point) > FLAT:
-            yield Line(on_page(one.point), on_page(one.contact), stroke)
+            yield Line.between(one.point, one.contact, stroke)
 
 
 def _curved(here: MechanismOnPaper) -> Iterator[tuple[CircularSlot, tuple[float, float]]]:
@@ -203,7 +203,7 @@ def circular_slots(here: MechanismOnPaper) -> Iterator[Group]:
             rim = centre + radius * rect(1.0, start)
             held = [here.places[p] for p in here.scene.by_name[slot.on].points if p in here.places and p != slot.centre]
             near = min(held or [centre], key=lambda z: abs(z - rim))
-            parts.append(Line(on_page(near), on_page(rim), strokes.LINK.coloured(colour)))
+            parts.append(Line.between(near, rim, strokes.LINK.coloured(colour)))
         parts += symbols.circular_slot(on_page(centre), radius, start, end, colour)
         yield Group(tuple(parts), id=f"slot-{slot.bar}", classes=("link",), since=here.stands)
 
@@ -253,7 +253,7 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
         lines = list[Primitive]()
         for letter, along, reach in (("n", normal, NORMAL), ("t", 1j * normal, TANGENT)):
             ends = at - reach * along, at + reach * along
-            lines.append(Line(on_page(ends[0]), on_page(ends[1]), strokes.AXIS))
+            lines.append(Line.between(ends[0], ends[1], strokes.AXIS))
             for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
                 mark = f"label-{letter}-{name}-{k + 1}{tag}"
                 names.append(Label.of(rich(sign(letter), 3.0), on_page(end), mark, toward=(phase(way),)))
@@ -278,7 +278,7 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
             along = 1j * touch.normal
             drawn += symbols.block(on_page(spots[0]), phase(along), colour)
             reach = FACE * along
-            drawn.append(Line(on_page(spots[0] - reach), on_page(spots[0] + reach), strokes.DIRECTION))
+            drawn.append(Line.between(spots[0] - reach, spots[0] + reach, strokes.DIRECTION))
         else:
             drawn += _dashed(spots[0], spots[1], colour, clear)
     whole = here.scene.whole
@@ -304,4 +304,4 @@ def _dashed(start: complex, end: complex, colour: str, clear: float) -> Iterator
     far = abs(end - start)
     if far > 2 * clear + TOUCHING:
         gap = (end - start) / far * clear
-        yield Line(on_page(start + gap), on_page(end - gap), strokes.REDUNDANT.coloured(colour))
+        yield Line.between(start + gap, end - gap, strokes.REDUNDANT.coloured(colour))

@@ -8,7 +8,7 @@ box and segment contacts.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
@@ -414,6 +414,11 @@ class LabelPanel:
             whole += np.bincount(which, over, len(whole))
             np.maximum.at(heaviest, which, over)
         return whole, heaviest
+
+
+def mapped(mark: Mark, change: Callable[[complex], complex]) -> Mark:
+    """A mark with its point, or both of its ends, changed."""
+    return (change(mark[0]), change(mark[1])) if isinstance(mark, tuple) else change(mark)
 
 
 def ends(mark: Mark) -> Segment:

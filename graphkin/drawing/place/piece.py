@@ -25,7 +25,7 @@ from graphkin.drawing.ink.primitives import (
     page_direction,
     walk,
 )
-from graphkin.drawing.place.labels import Label, Mark
+from graphkin.drawing.place.labels import Label, Mark, mapped
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import text_box
 
@@ -154,9 +154,9 @@ def _outermost(thing: Primitive) -> Sequence[complex]:
 
 def moved_piece(piece: Piece, by: complex) -> Piece:
     """The piece moved on the page."""
-    labels = tuple(replace(label, mark=_moved_mark(label.mark, by)) for label in piece.labels)
+    labels = tuple(replace(label, mark=mapped(label.mark, by.__add__)) for label in piece.labels)
     layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
-    return Piece(layers, labels, tuple(_moved_mark(mark, by) for mark in piece.marks))
+    return Piece(layers, labels, tuple(mapped(mark, by.__add__) for mark in piece.marks))
 
 
 def renamed(piece: Piece, suffix: str) -> Piece:
@@ -171,10 +171,6 @@ def renamed(piece: Piece, suffix: str) -> Piece:
 def middle_of(mark: Mark) -> complex:
     """The middle of a mark."""
     return (mark[0] + mark[1]) / 2 if isinstance(mark, tuple) else mark
-
-
-def _moved_mark(mark: Mark, by: complex) -> Mark:
-    return (mark[0] + by, mark[1] + by) if isinstance(mark, tuple) else mark + by
 
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
