@@ -48,8 +48,7 @@ Shape = Literal["circle", "disc", "up", "down", "square", "diamond", "cross"]
 POINTS_PER_MM = 72 / MM_PER_INCH
 NUMBER, TITLE = 2.5, 3.0  # letters, mm
 MARKER = 1.8  # mm across
-IN_FRONT = 100
-"""Place in the order of drawing from which words stand: in front of all curves."""
+IN_FRONT = 100  # place in the order of drawing from which words stand: in front of all curves
 BEHIND = 1.5
 """Lines of this order or less (zero lines, limit positions) are ground: labels keep off them only where they can."""
 

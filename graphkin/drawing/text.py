@@ -114,6 +114,12 @@ def stacked(lines: Sequence[Words], size: float = LETTER) -> tuple[Run, ...]:
     )
 
 
+def behind(first: tuple[Run, ...], second: tuple[Run, ...], gap: float = 0.0) -> tuple[Run, ...]:
+    """Two texts one after the other as one, a gap (mm) between them."""
+    by = runs_width(first) + gap
+    return *first, *(run._replace(x=run.x + by) for run in second)
+
+
 @lru_cache(maxsize=1024)
 def _ends(text: Words, size: float, bold: bool) -> Sequence[float]:
     """The lengths (mm) of the first none, one, two ... of its pieces, each set for itself."""

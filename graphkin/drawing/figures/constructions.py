@@ -320,16 +320,12 @@ def choice_chart(
 # -- a cam -------------------------------------------------------------------------------------------------------------
 
 GUTTER = 8.0  # mm between columns of the table
-CAM_PANEL = (150.0, 140.0)
-"""mm that the cam may fill."""
+CAM_PANEL = (150.0, 140.0)  # mm that the cam may fill
 SMALL = 2.4
 NUMBERS_APART = 0.2  # mm, to either side of a number
-LONG = 180.0
-"""mm for a turn of the cam in the diagram."""
-HIGH = (16.0, 40.0)
-"""mm that the lifts take there."""
-PAST = 5.0
-"""mm that a ray goes on beyond what it carries."""
+LONG = 180.0  # mm for a turn of the cam in the diagram
+HIGH = (16.0, 40.0)  # mm that the lifts take there
+PAST = 5.0  # mm that a ray goes on beyond what it carries
 BEGUN = 2  # steps, to the circles, with which a problem sheet begins
 ROWS = 10
 

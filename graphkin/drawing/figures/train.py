@@ -32,10 +32,8 @@ from graphkin.words.symbols import RichText, Words, rate, sign, spaced
 from graphkin.words.written import amount, on_paper, printed, product
 
 ROOM = 9.0  # mm above and below a line of centres
-SCHEME = 68.0
-"""mm that the train seen from the side may take."""
-PLAN = 78.0
-"""mm from the left margin to where velocities may begin."""
+SCHEME = 68.0  # mm that the train seen from the side may take
+PLAN = 78.0  # mm from the left margin to where velocities may begin
 TABLE = 62.0  # mm
 PLAN_WORDS = {"velocity": "plan", "acceleration": "plan accelerations"}
 """The name of the plan of each order."""
@@ -227,8 +225,7 @@ def _table(page: FigurePage, plan: TrainPlan) -> Block:
 # -- a train seen from the side ----------------------------------------------------------------------------------------
 
 TOOTH, RIM, APART = 5.0, 6.0, 0.45
-STEP = 13.0
-"""mm from one plane to the next, less where there are many."""
+STEP = 13.0  # mm from one plane to the next, less where there are many
 
 
 def _planes(line: CentreLine) -> tuple[Mapping[str, int], Mapping[str, int], int]:

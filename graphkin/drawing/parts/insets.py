@@ -30,7 +30,6 @@ from graphkin.drawing.ink.primitives import (
     Line,
     Polygon,
     Primitive,
-    Run,
     Scan,
     Stroke,
     Text,
@@ -61,7 +60,7 @@ from graphkin.drawing.text import fitted, plain, rich, runs_width, text_box
 from graphkin.plane import cross, unit
 from graphkin.scene.model import PlacedPicture
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words.symbols import RichText, rate, spaced
+from graphkin.words.symbols import Words, rate, spaced
 from graphkin.words.written import roman
 
 SMALL_INSET = 24.0, 21.0  # mm
@@ -85,7 +84,7 @@ def polygon_with_insets(
     -------
     the piece, and the Coriolis terms without room for their insets
     """
-    terms, small = _coriolis(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
+    terms, small = coriolis_terms(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
     count = len(terms) + len(small)
     here = PolygonOnPage(sheet, diagram, letters, language, panel, origin)
     lines = polygon_lines(here)
@@ -155,12 +154,8 @@ def _with_details(
 
 def strip_height(sheet: Sheet, diagram: DiagramName, width: float) -> float:
     """Height (mm) of a strip of a width that holds all insets of a polygon."""
-    count = len(_coriolis(sheet, diagram)) + len(details(sheet, diagram)[:MOST_DETAILS])
+    count = len(coriolis_terms(sheet, diagram)) + len(details(sheet, diagram)[:MOST_DETAILS])
     return -(-count // per_row(width)) * (INSET[1] + GUTTER)
-
-
-def _coriolis(sheet: Sheet, diagram: DiagramName) -> list[CoriolisTerm]:
-    return coriolis_terms(sheet) if diagram == "acceleration" else []
 
 
 def _detail_inset(
@@ -205,11 +200,10 @@ def _detail_inset(
             id = f"label-detail-{point.text.id.removeprefix('label-')}"
             name = point.text._replace(id=id, step=detail.crowd, since=here.since(detail))
             names[point.text.id] = Label(name, spot, point.toward, rank=1)
+    enlarged = term("detail", here.language, scale=f"{detail.factor:g}")
+    words = f"{roman(number)}: {enlarged}", f"{roman(number)} ({detail.factor:g} : 1)"
     id, classes = f"detail-{here.diagram}-{number}", ("inset", "detail")
-    runs = fitted(f"{roman(number)}: {_enlarged(detail.factor, here.language)}", NUMERAL, box.width - 1.6)
-    if runs_width(runs) > box.width - 1.6:
-        runs = fitted(f"{roman(number)} ({detail.factor:g} : 1)", NUMERAL, box.width - 1.6)
-    drawn = _inset(box, here.diagram, parts, runs, 1.6, id, f"label-{id}", classes, detail.crowd)
+    drawn = _inset(box, here.diagram, parts, words, NUMERAL, id, classes, step=detail.crowd)
     named = with_labels(dated(replace(drawn, labels=tuple(names.values())), here.since(detail)), inner)
     written = {text.id for text in named.layers["labels"] if isinstance(text, Text)}
     return named, {id for id, name in names.items() if name.text.id in written}
@@ -220,20 +214,18 @@ def _inside(box: Box, caption: float) -> Box:
     return Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - caption)
 
 
-def _enlarged(factor: float, language: str) -> str:
-    """The caption of a part enlarged by a factor."""
-    return term("detail", language, scale=f"{factor:g}")
-
-
 def _inset(
-    box: Box, layer: str, parts: Sequence[Primitive], words: tuple[Run, ...], up: float, id: str, label: str,
-    classes: tuple[str, ...], step: int | None = None,
+    box: Box, layer: str, parts: Sequence[Primitive], words: Sequence[Words], size: float, id: str,
+    classes: tuple[str, ...], up: float = 1.6, step: int | None = None,
 ) -> Piece:  # fmt: skip
-    """Parts in the frame of an inset, with words in its middle at ``up`` mm above its lower edge."""
-    frame = Polygon(box.corners, "", strokes.DIMENSION)
-    caption = Text(complex(box.centre.real, box.bottom - up), words, "middle", id=label, step=step)
-    group = Group((frame, *parts), id=id, classes=classes, step=step)
-    return Piece({layer: (group,), "labels": (caption,)})
+    """Parts in the frame of an inset, with the first words that fit in its middle, ``up`` mm above its lower edge, else
+    the last."""
+    wide = box.width - 1.6
+    texts = [fitted(text, size, wide) for text in words]
+    caption = next((runs for runs in texts if runs_width(runs) <= wide), texts[-1])
+    said = Text(complex(box.centre.real, box.bottom - up), caption, "middle", id=f"label-{id}", step=step)
+    group = Group((Polygon(box.corners, "", strokes.DIMENSION), *parts), id=id, classes=classes, step=step)
+    return Piece({layer: (group,), "labels": (said,)})
 
 
 CLOSE = 5.0  # mm: the symbols of nearer points overlap
@@ -256,7 +248,8 @@ def mechanism_with_inset(
     panel : room of it all (mm)
     """
     named = with_labels(moved_piece(piece, origin), panel)
-    under = background_piece(sheet, origin, panel)
+    scan, mm = sheet.scene.question.background, 1 / sheet.scales.length
+    under = Piece({"background": (_laid(scan, mm, origin, panel),)} if scan is not None else {})
     return joined((under, named, _mechanism_detail(sheet, letters, language, panel, named.drawn)))
 
 
@@ -277,22 +270,21 @@ def _mechanism_detail(
     boxes = free_boxes(1, SIZE, panel, obstacles_of(drawn))
     if not boxes:
         return Piece()
-    box = boxes[0]
-    inner = _inside(box, CAPTION)
+    inner = _inside(boxes[0], CAPTION)
     scales = sheet.scales
     larger = sheet.at(Scales(scales.length / factor, scales.velocity, scales.acceleration))
     shift = inner.centre - on_page(factor * middle)
     bare = moved_piece(bare_mechanism(larger, letters), shift)
     kept = {f"label-point-{ref.point}" for ref in near}
-    names = tuple(
-        name for name in bare.labels if name.text.id in kept and inner.distance(middle_of(name.mark)) == 0.0
-    )
-    inside = Piece({"mechanism": cut_to(map_tree(bare.layers["mechanism"], _plain), inner)}, names)
-    named = with_labels(inside, inner)
-    letters_of_both = spaced(", ", (letters.point(ref.point) for ref in near))
-    words = fitted(_enlarged(factor, language) + ", " + letters_of_both, 2.6, box.width - 1.6)
+    names = tuple(one for one in bare.labels if one.text.id in kept and inner.distance(middle_of(one.mark)) == 0.0)
+    # without their ids, which the mechanism itself has
+    bodies = map_tree(
+        bare.layers["mechanism"], lambda one: Group(one.children, "", one.classes) if isinstance(one, Group) else one)
+    named = with_labels(Piece({"mechanism": cut_to(bodies, inner)}, names), inner)
+    both = spaced(", ", (letters.point(ref.point) for ref in near))
+    words = term("detail", language, scale=f"{factor:g}") + ", " + both
     parts, classes = named.layers["mechanism"], ("inset", "detail")
-    frame = _inset(box, "mechanism", parts, words, 1.6, "detail-mechanism", "label-detail-mechanism", classes)
+    frame = _inset(boxes[0], "mechanism", parts, (words,), 2.6, "detail-mechanism", classes)
     labels = tuple(
         thing._replace(id=f"label-detail-{thing.id.removeprefix('label-')}", step=None, since=None)
         if isinstance(thing, Text) else thing for thing in named.layers.get("labels", ())
@@ -310,11 +302,6 @@ def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
     return min(close, key=lambda pair: pair[0])[1:] if close else None
 
 
-def _plain(thing: Primitive) -> Primitive:
-    """The primitive without its id, which the mechanism itself has."""
-    return Group(thing.children, "", thing.classes) if isinstance(thing, Group) else thing
-
-
 CoriolisTerm: TypeAlias = tuple[Vector, Vector, Size | None]
 """A Coriolis vector, its sliding velocity, and the rule for its size."""
 REACH = 8.0  # mm of the arrows
@@ -322,19 +309,16 @@ INSET = 32.0, 26.0  # mm
 GUTTER = 2.0  # mm between insets
 
 
-def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
-    """Each Coriolis vector that is not zero, with its sliding velocity and the rule for its size."""
-    velocities = sheet.vectors["velocity"]
+def coriolis_terms(sheet: Sheet, diagram: DiagramName) -> list[CoriolisTerm]:
+    """Each Coriolis vector of a polygon that is not zero, with its sliding velocity and the rule for its size."""
+    velocities = {symbol: v for symbol, v in sheet.vectors["velocity"].items() if abs(v.span) > ZERO}
     rules = {t.symbol: t.size for e in sheet.equations for side in e.sides for t in side}
     found = []
-    for vector in sheet.vectors["acceleration"].values():
-        if vector.role != "coriolis" or abs(vector.span) < ZERO:
-            continue
+    for vector in sheet.vectors[diagram].values():
         of, to = vector.symbol.of, vector.symbol.to
-        for velocity in (velocities.get(Symbol("v", of, to)), velocities.get(Symbol("v", of))):
-            if velocity is not None and abs(velocity.span) > ZERO:
-                found.append((vector, velocity, rules.get(vector.symbol)))
-                break
+        velocity = velocities.get(Symbol("v", of, to), velocities.get(Symbol("v", of)))
+        if vector.role == "coriolis" and abs(vector.span) >= ZERO and velocity is not None:
+            found.append((vector, velocity, rules.get(vector.symbol)))
     return found
 
 
@@ -348,24 +332,18 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box
     colour = colour_of_vector(sheet, vector.symbol)
     tips = [centre + REACH * on_page(way) for way in (slip, turned)]
     arc = sense_arc(centre, 3.6, phase(slip) + sense * math.pi / 4, sense, math.radians(72))
-    parts: tuple[Primitive, ...] = (
-        *arrow(centre, tips[0], COMPONENT, strokes.BLACK), *arrow(centre, tips[1], COMPONENT, colour), *arc,
-        Circle(centre, 0.4, fill=strokes.BLACK),
-    )  # fmt: skip
-    id = vector.symbol.id
+    arrows = *arrow(centre, tips[0], COMPONENT, strokes.BLACK), *arrow(centre, tips[1], COMPONENT, colour)
+    parts = *arrows, *arc, Circle(centre, 0.4, fill=strokes.BLACK)
+    id, middle = vector.symbol.id, centre + 3.6 * on_page(unit(slip + turned))
     links = "".join(rule.links) if rule and rule.rule == "rate" and rule.rate == "omega" else ""
-    names = [
-        _label(letters.arrow(velocity.symbol), f"label-inset-v-{id}", tips[0], phase(slip)),
-        _label(letters.arrow(vector.symbol), f"label-inset-{id}", tips[1], phase(turned)),
-    ]
-    if links:
-        middle = centre + 3.6 * on_page(slip + turned) / abs(slip + turned)
-        names.append(_label(rate("omega", links), f"label-inset-omega-{id}", middle, phase(slip + turned), 1))
+    told = [("v-", letters.arrow(velocity.symbol), tips[0], slip, 0)]
+    told.append(("", letters.arrow(vector.symbol), tips[1], turned, 0))
+    told += [("omega-", rate("omega", links), middle, slip + turned, 1)] if links else []
+    names = (Label.of(rich(name, 2.8), at, f"label-inset-{kind}{id}", toward=(phase(way),), rank=rank)
+             for kind, name, at, way, rank in told)  # fmt: skip
     name = letters.vector(vector.symbol)
-    caption = fitted(name + " = " + letters.size(rule) if rule else name, 2.8, box.width - 1.6)
-    if runs_width(caption) > box.width - 1.6:
-        caption = fitted(name, 2.8, box.width - 1.6)
-    piece = _inset(box, "acceleration", parts, caption, 2.3, f"sense-{id}", f"label-sense-{id}", ("inset",))
+    words = (name + " = " + letters.size(rule), name) if rule else (name,)
+    piece = _inset(box, "acceleration", parts, words, 2.8, f"sense-{id}", ("inset",), up=2.3)
     drawn = [step.number for step in sheet.steps if vector in step.strokes]
     return with_labels(dated(replace(piece, labels=tuple(names)), max(drawn, default=None)), inner)
 
@@ -391,24 +369,13 @@ def inset_boxes(strip: Box, count: int) -> list[Box]:
     return [Box(x, y, x + INSET[0], y + INSET[1]) for x, y in corners]
 
 
-def _label(name: RichText, id: str, at: complex, toward: float, rank: int = 0) -> Label:
-    return Label.of(rich(name, 2.8), at, id, toward=(toward,), rank=rank)
-
-
 READ = Stroke(0.3, (1.6, 0.8), "#c2006b")
 OFF = Stroke(0.8, (1.6, 0.8), "#c2006b")
 
 
-def background_piece(sheet: Sheet, origin: complex, panel: Box) -> Piece:
-    """The scene's picture, cut to a panel (mm, y down) in which the world's origin lies at ``origin``."""
-    under = sheet.scene.question.background
-    if under is None:
-        return Piece()
-    return Piece({"background": (_laid(under, 1 / sheet.scales.length, origin, panel),)})
-
-
 def _laid(picture: PlacedPicture, mm: float, origin: complex, panel: Box) -> Scan:
-    """A picture on a page where the origin of its places lies at ``origin``, with ``mm`` for one unit of them."""
+    """A picture cut to a panel of a page where the origin of its places lies at ``origin``, with ``mm`` for one unit of
+    them."""
     corner, step = (on_page(z) * mm for z in (picture.corner, picture.step))
     return Scan(origin + corner, step, picture.width, picture.height, picture.kind, picture.data, panel.corners)
 

@@ -10,9 +10,11 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
+from typing import TypeVar
 
 from graphkin.account.headings import number
 from graphkin.account.notation import Notation, pole, unit_of
@@ -23,14 +25,14 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import Bar, DiagramName, Image, Mark, Ray, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Run, Segment, Stroke, Text, on_page
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Stroke, Text, on_page
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.numbers import BESIDE, LEAST_NUMBERED, beside_ring, step_number
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.piece import Piece, joined, obstacles_of
-from graphkin.drawing.text import LETTER, plain, rich, runs_width, text_box
+from graphkin.drawing.text import LETTER, behind, plain, rich, runs_width, text_box
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.symbols import RichText, sign, spaced
@@ -79,8 +81,16 @@ class PolygonOnPage:
 
     @cached_property
     def names(self) -> Mapping[Symbol, Label]:
-        """The names of vectors, by the first of those that share a name."""
-        return dict(_vector_names(self))
+        """A name for vectors that share tail and tip, by the first of them, the longest first; vectors of zero length
+        are named in words."""
+        letters = {same_place(point.at): point.letter for point in reversed(self.lettered.named)}
+        groups: dict[tuple[complex, complex, bool], list[Vector]] = {}
+        for _, vector in self.in_order:
+            key = same_place(vector.tail), same_place(vector.tip), vector.span == 0.0
+            groups.setdefault(key, []).append(vector)
+        shared = sorted(groups.values(), key=lambda group: -round(abs(group[0].span), 6))
+        named = ((group[0].symbol, _name(self, group, letters)) for group in shared)
+        return {symbol: name for symbol, name in named if name is not None}
 
     @cached_property
     def lettered(self) -> PolygonPoints:
@@ -159,7 +169,7 @@ class Detail:
 def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
     """The places of a polygon that need a larger drawing."""
     small = [v for v in sheet.vectors[diagram].values() if LEAST_DRAWN <= abs(v.span) < SMALL]
-    found = [detail for group in _near(small) for detail in _at_their_scales(group)]
+    found = [detail for group in _together(small, _ends_of) for detail in _at_their_scales(group)]
     return sorted(found, key=lambda d: (d.factor, -len(d.vectors), d.centre.real, d.centre.imag))
 
 
@@ -167,51 +177,51 @@ def crowds(here: PolygonOnPage, enlarged: Sequence[Detail], crowded: Iterable[La
     """The places around points and tips of vectors whose letters and names find no good place at the size of the
     figure, near ones together; without places that are ``enlarged`` already."""
     vectors = {f"label-{symbol.id}": vector for symbol, (_, vector) in here.vectors.items()}
-    groups: list[list[tuple[complex, tuple[Vector, ...]]]] = []
+    spots: list[tuple[complex, Vector | None]] = []
     for label in crowded:
         vector = vectors.get(label.text.id)
         if vector is not None:
-            point = vector.tip
+            spots.append((vector.tip, vector))
         elif isinstance(label.mark, complex):
-            point = on_page(label.mark - here.origin)
-        else:
-            continue
-        if any(abs(point - known.centre) <= known.radius for known in enlarged):
-            continue
-        near = [group for group in groups if any(abs(point - z) < TOGETHER for z, _ in group)]
-        own = point, (vector,) if vector else ()
-        groups = [group for group in groups if group not in near] + [[own, *(one for group in near for one in group)]]
-    return [_crowd(here, group) for group in groups]
+            spots.append((on_page(label.mark - here.origin), None))
+    told = (spot for spot in spots if all(abs(spot[0] - known.centre) > known.radius for known in enlarged))
+    return [_crowd(here, group) for group in _together(told, lambda spot: spot[:1])]
 
 
-def _crowd(here: PolygonOnPage, group: Sequence[tuple[complex, tuple[Vector, ...]]]) -> Detail:
+def _crowd(here: PolygonOnPage, group: Sequence[tuple[complex, Vector | None]]) -> Detail:
     steps = [step for step, vector in here.vectors.values() if any(abs(vector.tip - z) <= SAME for z, _ in group)]
     last = max(steps, default=here.steps[-1].number)
     box = Box.around(z for z, _ in group)
     size = max(box.width, box.height)
-    vectors = tuple(vector for _, own in group for vector in own)
+    vectors = tuple(vector for _, vector in group if vector is not None)
     return Detail(box.centre, max(1.2, 0.75 * size), vectors, min(CROWD, _factor(LONGEST / max(size, 1.0))), last)
 
 
-def _near(small: Sequence[Vector]) -> list[list[Vector]]:
-    """Vectors in groups of neighbours."""
-    groups: list[list[Vector]] = []
-    for vector in small:
-        near = [g for g in groups if any(_apart(vector, other) < TOGETHER for other in g)]
-        merged = [vector, *(v for g in near for v in g)]
-        groups = [g for g in groups if g not in near] + [merged]
+_Thing = TypeVar("_Thing")
+
+
+def _together(things: Iterable[_Thing], places: Callable[[_Thing], Sequence[complex]]) -> list[list[_Thing]]:
+    """Things in groups of neighbours, by the places (mm) of each."""
+
+    def near(one: _Thing, other: _Thing) -> bool:
+        return any(abs(p - q) < TOGETHER for p in places(one) for q in places(other))
+
+    groups: list[list[_Thing]] = []
+    for thing in things:
+        joining = [group for group in groups if any(near(thing, other) for other in group)]
+        groups = [group for group in groups if group not in joining] + [[thing, *chain.from_iterable(joining)]]
     return groups
 
 
 def _at_their_scales(group: Sequence[Vector]) -> Iterator[Detail]:
     """A group drawn larger, and its vectors that are too small even there at a further scale."""
-    box = Box.around([z for v in group for z in (v.tail, v.tip)])
+    box = Box.around(chain.from_iterable(map(_ends_of, group)))
     size = max(box.width, box.height)
     factor = _factor(LONGEST / size)
     shown = [v for v in group if abs(v.span) * factor >= SEEN]
     if factor > 1.0 and shown:
         yield Detail(box.centre, max(1.2, 0.75 * size), tuple(shown), factor)
-    for smaller in _near([v for v in group if abs(v.span) * factor < SEEN]):
+    for smaller in _together((v for v in group if abs(v.span) * factor < SEEN), _ends_of):
         if len(smaller) < len(group):
             yield from _at_their_scales(smaller)
 
@@ -222,8 +232,8 @@ def _factor(most: float) -> float:
     return max(1.0, *(float(f"{step * decade:.12g}") for step in SERIES if step * decade <= most * (1 + 1e-12)))
 
 
-def _apart(a: Vector, b: Vector) -> float:
-    return min(abs(p - q) for p in (a.tail, a.tip) for q in (b.tail, b.tip))
+def _ends_of(vector: Vector) -> Segment:
+    return vector.tail, vector.tip
 
 
 APART = 1.0  # mm between two of them
@@ -282,8 +292,10 @@ def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> 
     for order, (at, refs) in enumerate(places.items()):
         moving = [ref for ref in refs if ref.link or ref.point not in fixed]
         for i, ref in enumerate(moving):
-            id = f"{here.diagram}-{ref}".replace("@", "")
-            dot = _dot(here.at(at), i + (order == 0))
+            id, ring = f"{here.diagram}-{ref}".replace("@", ""), i + (order == 0)
+            # a dot for the first point of a place, rings around it for coincident ones
+            dot = (Circle(here.at(at), END_RADIUS + ring * DOT_RING, stroke=Stroke(0.18)) if ring
+                   else Circle(here.at(at), END_RADIUS, strokes.BLACK))  # fmt: skip
             said, since = spoken_ref(ref, here.language), here.ends_since[ref]
             group = Group((dot,), id=id, classes=("end",), title=said, since=since)
             yield Piece({here.diagram: (group,)}, (), (here.at(at),))
@@ -291,13 +303,6 @@ def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> 
             letters = spaced(sign(", "), filter(None, (here.letters.end(here.diagram, ref) for ref in moving)))
             id, since = f"label-{here.diagram}-{moving[0]}", here.ends_since[moving[0]]
             yield Piece(labels=_named(here, letters, at, id, 0, at, since))
-
-
-def _dot(at: complex, ring: int) -> Circle:
-    """A dot for the first point of a place, rings around it for coincident ones."""
-    if ring == 0:
-        return Circle(at, END_RADIUS, fill=strokes.BLACK)
-    return Circle(at, END_RADIUS + ring * DOT_RING, stroke=Stroke(0.18))
 
 
 def _feet(here: PolygonOnPage, feet: Sequence[NamedPoint]) -> Iterator[Piece]:
@@ -472,56 +477,37 @@ def _vectors(here: PolygonOnPage) -> Iterator[Group]:
         yield group._replace(children=(*group.children, *ties))
 
 
-def _vector_names(here: PolygonOnPage) -> Iterator[tuple[Symbol, Label]]:
-    """A name for vectors that share tail and tip, by the first of them, the longest first; vectors of zero length are
-    named in words."""
-    letters = {same_place(point.at): point.letter for point in reversed(here.lettered.named)}
-    groups: dict[tuple[complex, complex, bool], list[Vector]] = {}
-    for _, vector in here.in_order:
-        key = same_place(vector.tail), same_place(vector.tip), vector.span == 0.0
-        groups.setdefault(key, []).append(vector)
-    for shared in sorted(groups.values(), key=lambda group: -round(abs(group[0].span), 6)):
-        length, in_order = abs(shared[0].span), sorted(shared, key=lambda v: here.vectors[v.symbol][0])
-        if (name := _name(here, length, in_order, letters)) is not None:
-            yield shared[0].symbol, name
-
-
 SHORT = 7.0  # mm: beside a shorter vector its name leaves no room for a number, which stands before the name
 MANY = 16  # in a polygon of more vectors names have no room for that
 
 
-def _name(
-    here: PolygonOnPage, length: float, vectors: Sequence[Vector], letters: Mapping[complex, RichText]
-) -> Label | None:
-    us = here.letters.convention == "us"
-    if length < LEAST_DRAWN:
-        vectors = [v for v in vectors if v.role != "resultant" or us or abs(v.tip) < SAME]
+def _name(here: PolygonOnPage, group: Sequence[Vector], letters: Mapping[complex, RichText]) -> Label | None:
+    """The name of vectors with one tail and tip in the order of their steps; None for short resultants, which share the
+    letter of their end.  ``letters`` are those of the points."""
+    length, us = abs(group[0].span), here.letters.convention == "us"
+    short = length < LEAST_DRAWN
+    vectors = sorted((v for v in group if not short or v.role != "resultant" or us or abs(v.tip) < SAME),
+                     key=lambda v: here.vectors[v.symbol][0])  # fmt: skip
     if not vectors:
         return None
     first = vectors[0]
-    written = here.letters.vector if length < LEAST_DRAWN else here.letters.arrow
+    written = here.letters.vector if short else here.letters.arrow
     name = spaced(sign(" = "), (written(v.symbol) for v in vectors))
     id, step = f"label-{first.symbol.id}", here.vectors[first.symbol][0]
-    if length < LEAST_DRAWN:
+    if short:
         unit = unit_of(here.sheet, here.diagram)
         size = f"{number(length * here.sheet.scales.of(here.diagram) / unit.si, 4)} {unit.written}"
         value = rich(name + (sign(" = 0") if length == 0.0 else f" = {size}"), LETTER)
         return Label.of(value, here.at(first.tip), id, rank=3, since=step, key=step_number(step))
-    resultants = all(v.role == "resultant" for v in vectors)
-    text = Text(0j, rich(name), "start", here.colours[first.symbol], id, ("label",), since=step)
-    key = step_number(step, text.colour)
-    if LEAST_NUMBERED <= length < SHORT and len(here.vectors) <= MANY:
-        by = runs_width(key.runs) + BESIDE
-        text = text._replace(runs=(*key.runs, *(Run(run.text, run.x + by, *run[2:]) for run in text.runs)), step=step)
+    resultants, colour, runs = all(v.role == "resultant" for v in vectors), here.colours[first.symbol], rich(name)
+    key = step_number(step, colour)
+    numbered = LEAST_NUMBERED <= length < SHORT and len(here.vectors) <= MANY
     ends = [letters.get(same_place(end), RichText()) for end in (first.tail, first.tip)]
-    between = spaced(sign("→"), ends) if all(ends) else RichText()
-    return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
-
-
-def _of_trial(letter: RichText, trial: int) -> RichText:
-    """The letter of an end point in a trial polygon, which bears its numeral."""
-    *before, last = letter.atoms
-    return RichText(*before, last._replace(sup=sign(roman(trial)).atoms))
+    return Label.of(
+        behind(key.runs, runs, BESIDE) if numbered else runs, here.drawn(first), id, colour=colour,
+        rank=2 if resultants and not us else 1, step=step if numbered else None, since=step, key=key,
+        between=spaced(sign("→"), ends) if all(ends) else "",
+    )  # fmt: skip
 
 
 def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
@@ -555,10 +541,11 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                 named.add(same_place(aid.tip))
                 letter = here.letters.end(here.diagram, of)
                 if letter:
+                    *before, last = letter.atoms
+                    numbered = RichText(*before, last._replace(sup=sign(roman(trial)).atoms))
                     name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
-                    labels.append(Label.of(rich(_of_trial(letter, trial), 2.5), here.at(aid.tip), name,
-                            colour=strokes.GREY, toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",),
-                            since=step.number))
+                    labels.append(Label.of(rich(numbered, 2.5), here.at(aid.tip), name, colour=strokes.GREY,
+                            toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",), since=step.number))
         classes = (f"trial-{trial}",) if trial else ("special",)
         drawn = Group(tuple(parts), classes=classes, step=step.number, since=step.number)
         yield Piece({"construction": (drawn,)}, tuple(labels))

@@ -22,20 +22,14 @@ from graphkin.plane import added_up, unit
 from graphkin.scene.pairs import CircularSlot
 from graphkin.words.symbols import sign
 
-NORMAL, TANGENT = 15.0, 12.0
-"""mm of normal and tangent to either side of a contact."""
-FACE = 16.0
-"""mm of a face of the frame to either side of a contact."""
+NORMAL, TANGENT = 15.0, 12.0  # mm of normal and tangent to either side of a contact
+FACE = 16.0  # mm of a face of the frame to either side of a contact
 AT_CAM, FLAT = 9.0, 13.0
 """mm: how far normal and tangent of a cam go on beyond what they touch, and half the flat face of its follower."""
-CURVED_ALONG = 16.0
-"""mm of a circular slot to either side of what runs in it."""
-TOUCHING = 1e-6
-"""mm: centres so near lie on each other."""
-HATCHES = 2.6
-"""mm of outline between two hatches of a hatched ring."""
-IN_BODY = 0.6
-"""Of its radius: how far from the centre of a round body, or the axis of a cam, its number stands."""
+CURVED_ALONG = 16.0  # mm of a circular slot to either side of what runs in it
+TOUCHING = 1e-6  # mm: centres so near lie on each other
+HATCHES = 2.6  # mm of outline between two hatches of a hatched ring
+IN_BODY = 0.6  # of its radius: how far from the centre of a round body, or the axis of a cam, its number stands
 
 
 def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> list[Primitive]:

@@ -11,12 +11,12 @@ from dataclasses import replace
 from itertools import accumulate, zip_longest
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
+from graphkin.drawing.ink.primitives import Line, Primitive, Text
 from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.obstacles import CLEAR, Obstacles, free_boxes
 from graphkin.drawing.place.piece import Piece, obstacles_of
 from graphkin.drawing.place.placement import Placed, Placement
-from graphkin.drawing.text import rich, runs_width, text_box
+from graphkin.drawing.text import behind, rich, text_box
 from graphkin.plane import added_up
 from graphkin.words.symbols import Words
 
@@ -101,15 +101,10 @@ def _entry(name: Text, key: Text | None, between: Words) -> Text:
     if the name begins with it."""
     runs = name.runs
     if key is not None and not name.string.startswith(key.string.rstrip("… ")):
-        runs = _behind(key.runs, name.runs, BEHIND)
+        runs = behind(key.runs, name.runs, BEHIND)
     if between:
-        runs = _behind(runs, rich(": " + between), 0.0)
+        runs = behind(runs, rich(": " + between))
     return Text(0j, runs, "start", name.colour, f"listed-{name.id}", (*name.classes, "listed"), since=name.since)
-
-
-def _behind(first: tuple[Run, ...], second: tuple[Run, ...], gap: float) -> tuple[Run, ...]:
-    by = runs_width(first) + gap
-    return *first, *(run._replace(x=run.x + by) for run in second)
 
 
 def _list(entries: Sequence[Text], panel: Box, around: Obstacles) -> tuple[Text, ...]:

@@ -197,8 +197,7 @@ def _colour(name: str) -> int:
     return int(name.removeprefix("#"), 16)
 
 
-KEEPS = 2e-7
-"""mm that an arc may lie off the profile."""
+KEEPS = 2e-7  # mm that an arc may lie off the profile
 COUNT, ROUNDS = 90, 12
 
 Vertex = tuple[complex, float]
