@@ -19,7 +19,7 @@ from graphkin.construction.board.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, map_tree
-from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.dimensions import BAR, check_bar
 from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
 from graphkin.drawing.text import SMALLEST, fitted, plain, rich, runs_width, wrapped
 from graphkin.drawing.write.drawing import Drawing
@@ -42,7 +42,6 @@ GAP = 2.0  # between heading and body, body and foot
 LEAST = 114.0  # least width of a page between its margins
 INDENT = 8.0  # of a paragraph behind its number
 TOLD = ("told",)  # the class of what is said of a figure
-BAR = 50.0  # length of the check bar
 
 
 @dataclass(frozen=True)

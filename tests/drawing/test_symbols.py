@@ -94,7 +94,7 @@ def test_an_acceleration_has_two_arrowheads():
 
 
 def test_the_check_bar_is_fifty_millimetres_long():
-    bar = check_bar(10 + 10j)[0]
+    bar = check_bar(10 + 10j, plain("50 mm"))[0]
     assert abs(bar.end - bar.start) == 50.0
 
 
@@ -116,7 +116,7 @@ def test_the_number_of_an_angle_stands_clear_of_its_arc(violations):
 
 
 def test_every_symbol_is_of_known_primitives():
-    shapes = (*fixed_pivot(9 + 9j), *guide(9 + 9j, 0.0, 20.0), *slot(0j, 9 + 0j), *check_bar(0j))
+    shapes = (*fixed_pivot(9 + 9j), *guide(9 + 9j, 0.0, 20.0), *slot(0j, 9 + 0j), *check_bar(0j, plain("50 mm")))
     assert {type(shape) for shape in shapes} <= {Line, Polygon, Circle, Arc, Text}
 
 

@@ -126,7 +126,7 @@ def _bars(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | 
             if one not in places or other not in places or abs(places[one] - places[other]) < 1.0:
                 continue
             ends = on_page(places[one]), on_page(places[other])
-            value = abs(link.points[other] - link.points[one]) / here.scene.units.metres
+            value = _distance(link, one, other) / here.scene.units.metres
             runs = rich(printed(as_given(value)), SIZE)
             long = abs(ends[1] - ends[0]) >= LEAST
             parts = room.take(dimension(*ends, offset, runs) for offset in OFFSETS) if long else None
@@ -141,10 +141,10 @@ def _spans(link: PlacedLink, metres: float) -> tuple[list[tuple[str, str]], list
     spans = [(link.bar[0], link.bar[1])] if link.length is not None else []
     corners = []
     for further in (p for p in link.points if p not in link.bar):
-        own = [p for p in link.bar if abs(link.points[further] - link.points[p]) > 0.0]
-        own.sort(key=lambda p: not _round(link, p, further, metres))
+        far = {p: _distance(link, p, further) / metres for p in link.bar}
+        own = sorted((p for p in link.bar if far[p] > 0.0), key=lambda p: not _round(far[p]))
         on_the_bar = abs(link.points[further].imag) < 1e-9 * abs(link.points[further])
-        if len(own) == 2 and not on_the_bar and not _round(link, own[1], further, metres):
+        if len(own) == 2 and not on_the_bar and not _round(far[own[1]]):
             angle = math.degrees(_angle(link, own[1], own[0], further))
             if abs(angle - round(angle, 2)) < 1e-7:
                 corners.append((own[1], own[0], further))
@@ -168,10 +168,13 @@ def _turned(
     return room.take(drawn, 0, ends_on_line=True)
 
 
-def _round(link: PlacedLink, one: str, other: str, metres: float) -> bool:
-    """Whether a distance looks like a given one: at most four digits."""
-    value = abs(link.points[other] - link.points[one]) / metres
-    return value > 0.0 and abs(float(f"{value:.4g}") - value) < 1e-9 * value
+def _distance(link: PlacedLink, one: str, other: str) -> float:
+    return abs(link.points[other] - link.points[one])
+
+
+def _round(value: float) -> bool:
+    """Whether a value looks like a given one: at most four digits."""
+    return abs(float(f"{value:.4g}") - value) < 1e-9 * value
 
 
 def _frame(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
@@ -179,7 +182,8 @@ def _frame(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
     or above the mechanism, upright beside it."""
     scene = here.scene
     spots = {point: on_page(z) for point, z in here.places.items() if point in scene.frame.points}
-    datum = next((spots[p] for p in _datums(here) if p in spots), None)
+    pivots = (p for driver in scene.drivers if driver.turns for p in scene.by_name[driver.link].points)
+    datum = next((spots[p] for p in (*pivots, *scene.frame.points) if p in spots), None)
     guides: tuple[list[complex], list[complex]] = ([], [])
     on_guides: list[complex] = []  # points of what slides, on the line of its guide
     for slider in here.sliders:
@@ -192,15 +196,11 @@ def _frame(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
             ends = (here.places.get(p, slider.at) for p in (sliding.points if sliding else ()))
             on_guides += [on_page(z) for z in ends if abs(z - slider.at) > GUIDE_LENGTH / 2]
     for upright in (False, True):
+        carried = (z for z in on_guides if any(abs(_part(z - guide, upright)) < 1e-5 for guide in guides[upright]))
         places = [(z, 0.0) for z in spots.values()]
         places += [(z, GUIDE_LENGTH / 2 - 4.0) for z in guides[upright]]
-        places += [
-            (z, 0.0) for z in on_guides if any(abs(_part(z - guide, upright)) < 1e-5 for guide in guides[upright])
-        ]
-        pairs: set[tuple[float, float]] = set()
-        for spot in spots.values():
-            if datum is not None and spot != datum:
-                pairs.add(_levels(datum, spot, upright))
+        places += [(z, 0.0) for z in carried]
+        pairs = {_levels(datum, spot, upright) for spot in spots.values() if datum is not None and spot != datum}
         for guide in guides[upright] if spots else ():
             levels = {_levels(spot, guide, upright) for spot in spots.values()}
             pairs.add(min(levels, key=lambda pair: (pair[1] - pair[0], pair)))
@@ -215,15 +215,6 @@ def _frame(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
             parts = _beside(here, room, places, pair, upright)
             if parts is not None:
                 yield parts
-
-
-def _datums(here: MechanismOnPaper) -> Iterator[str]:
-    """Fixed points from which others are measured: the pivots of drivers first."""
-    scene = here.scene
-    for driver in scene.drivers:
-        if driver.turns:
-            yield from (p for p in scene.by_name[driver.link].points if p in scene.frame.points)
-    yield from scene.frame.points
 
 
 def _levels(one: complex, other: complex, upright: bool) -> tuple[float, float]:
@@ -424,24 +415,20 @@ def _on_link(
         len(link.bar) == 2 or any(s.slide.b == link.name and not s.slide.guide.name for s in shown)
     ):
         tried.append(_guide_angle(room, pose.origin, pose.axis / pairs[0].turn, pose.axis))
+    drawn = [end for shape in here.shapes if shape.link == link.name for segment in shape.segments for end in segment]
     for guide in used_guides(scene, link):
         on = next((s for s in shown if s.slide.b == link.name and s.slide.guide.name == guide.name), None)
         if on is None or (abs(cross(guide.direction, 1 + 0j)) < LEVEL and not link.bar):
             continue
         value = abs(cross(guide.through, guide.direction)) / metres
-        if abs(float(f"{value:.4g}") - value) < 1e-9 * value:  # as it is given, no result of slanted places
+        if _round(value):  # as it is given, no result of slanted places
             tried.append(_apart(room, (pose.origin,), (on.at,), on.along * 1j, value))
         corner = cross_lines(pose.origin, pose.axis, on.at, on.along)
-        if corner is not None and abs(corner - pose.origin) > GUIDE_LENGTH / 2 and _drawn_at(here, link, corner):
+        if corner is None or abs(corner - pose.origin) <= GUIDE_LENGTH / 2:
+            continue
+        if sum(abs(end - corner) < NEAR for end in drawn) > 1:  # two drawn lines of the link meet there
             tried.append(_guide_angle(room, corner, pose.origin - corner, on.at - corner))
     yield from (parts for parts in tried if parts is not None)
-
-
-def _drawn_at(here: MechanismOnPaper, link: PlacedLink, corner: complex) -> bool:
-    """Whether two drawn lines of a link meet at a place."""
-    shape = next((s for s in here.shapes if s.link == link.name), None)
-    ends = [end for segment in (shape.segments if shape else ()) for end in segment]
-    return sum(abs(end - corner) < NEAR for end in ends) > 1
 
 
 def _guide_angle(room: DimensionClearance, at: complex, one: complex, other: complex) -> Parts | None:

@@ -11,7 +11,7 @@ from cmath import phase, rect
 from collections.abc import Collection, Iterable, Iterator
 
 from graphkin.account.headings import term
-from graphkin.construction.touching import CamOnPaper
+from graphkin.construction.touching import CamOnPaper, Touch
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Stroke, on_page
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
@@ -61,7 +61,7 @@ def _ring(centre: complex, radius: float, outside: bool, colour: str) -> Iterato
     count = max(12, round(2 * math.pi * radius / HATCHES))
     away = symbols.HATCH_DEPTH if outside else -symbols.HATCH_DEPTH
     for k in range(count):
-        way = complex(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
+        way = rect(1.0, 2 * math.pi * k / count)
         foot = centre + radius * way
         yield Line.between(foot, foot + away * way * complex(1, 0.8), strokes.HATCHING.coloured(colour))
 
@@ -77,12 +77,10 @@ def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
                 parts += _ring(centre, abs(radius), radius < 0, colour)
     for rack, foot, body in links.pitch_lines():
         if rack == link:
-            along = 1j * body
-            reach = 2.2 * FACE * along
+            reach, edge = 2.2 * FACE * 1j * body, 2.0 * body
             parts.append(Line.between(foot - reach, foot + reach, strokes.PITCH.coloured(colour)))
-            edge = body * 2.0
-            ends = (foot - reach + edge, foot + reach + edge)
-            edge_of_body = Line.between(ends[0], ends[1], strokes.LINK.coloured(colour))
+            ends = foot - reach + edge, foot + reach + edge
+            edge_of_body = Line.between(*ends, strokes.LINK.coloured(colour))
             parts += _hatched(*ends, body) if link == here.ground else [edge_of_body]
     return parts
 
@@ -204,12 +202,10 @@ def circular_slots(here: MechanismOnPaper) -> Iterator[Group]:
 
 def block_on_circle(here: MechanismOnPaper, link: str) -> list[Primitive]:
     """A link that is a block in a circular slot; nothing for other links."""
-    parts = list[Primitive]()
-    for slot, _ in _curved(here):
-        if slot.block and slot.bar == link:
-            at = here.places[slot.point]
-            parts += symbols.block(on_page(at), phase(1j * (at - here.places[slot.centre])), here.colour(link))
-    return parts
+    slots = (slot for slot, _ in _curved(here) if slot.block and slot.bar == link)
+    spots = ((here.places[slot.point], here.places[slot.centre]) for slot in slots)
+    return [part for at, centre in spots
+            for part in symbols.block(on_page(at), phase(1j * (at - centre)), here.colour(link))]  # fmt: skip
 
 
 def badges(here: MechanismOnPaper, spoken: str) -> list[Label]:
@@ -230,27 +226,24 @@ def badges(here: MechanismOnPaper, spoken: str) -> list[Label]:
 
 def contact_marks(here: MechanismOnPaper) -> Piece:
     """At every contact the common normal n-n and the common tangent t-t."""
-    places = ((touch.name, touch.at, touch.normal) for _, touch in here.touching.contacts())
-    return dated(_marks(places), here.stands)
+    return dated(_marks(touch for _, touch in here.touching.contacts()), here.stands)
 
 
 def marks_cut_free(here: MechanismOnPaper, cut: frozenset[str], tag: str) -> Piece:
     """Normals and tangents with their letters where links cut free touch others, also at the pitch points of wheels;
     ``tag`` ends the names of the parts."""
-    touches = (t for t in here.touching.touches() if cut.intersection(t.links))
-    return _marks(((t.name, t.at, t.normal) for t in touches), f"-{tag}")
+    return _marks((touch for touch in here.touching.touches() if cut.intersection(touch.links)), f"-{tag}")
 
 
-def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Piece:
+def _marks(touches: Iterable[Touch], tag: str = "") -> Piece:
     drawn, names = list[Primitive](), list[Label]()
-    for name, at, normal in places:
+    for name, at, normal in ((touch.name, touch.at, touch.normal) for touch in touches):
         lines = list[Primitive]()
         for letter, along, reach in (("n", normal, NORMAL), ("t", 1j * normal, TANGENT)):
-            ends = at - reach * along, at + reach * along
-            lines.append(Line.between(ends[0], ends[1], strokes.AXIS))
-            for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
-                mark = f"label-{letter}-{name}-{k + 1}{tag}"
-                names.append(Label.of(rich(sign(letter), 3.0), on_page(end), mark, toward=(phase(way),)))
+            lines.append(Line.between(at - reach * along, at + reach * along, strokes.AXIS))
+            for k, way in enumerate((-along, along), 1):
+                id = f"label-{letter}-{name}-{k}{tag}"
+                names.append(Label.of(rich(sign(letter), 3.0), on_page(at + reach * way), id, toward=(phase(way),)))
         if tag:
             lines.append(Circle(on_page(at), 0.5, fill=strokes.BLACK))
             names.append(Label.of(rich(sign(name), 3.0), on_page(at), rank=1))

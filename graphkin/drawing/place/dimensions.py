@@ -30,7 +30,7 @@ from graphkin.drawing.place.obstacles import (
     segments_of,
     stand_on,
 )
-from graphkin.drawing.text import CAP_HEIGHT, plain, text_box
+from graphkin.drawing.text import CAP_HEIGHT, text_box
 from graphkin.plane import cross
 
 OVERRUN, GAP = 1.5, 0.8  # extension lines reach past the dimension line and start off the object, mm
@@ -91,17 +91,15 @@ def angle_dimension(
     )
 
 
-def check_bar(at: complex, runs: tuple[Run, ...] = (), length: float = 50.0) -> tuple[Line | Text, ...]:
-    """A bar of 50 mm with a tick each 10 mm, from its left end: lay a ruler on it to see that a print is true to scale.
+BAR = 50  # mm, length of the check bar
 
-    The words stand above it; by default its length.
-    """
-    ticks = [Line(at, at + length, strokes.OUTLINE)]
-    for mm in range(0, round(length) + 1, 10):
-        height = 2.0 if mm in (0, round(length)) else 1.2
-        ticks.append(Line(at + mm, at + mm - height * 1j, strokes.DIMENSION))
-    words = runs or plain(f"{length:g} mm", 2.5)
-    return *ticks, Text(at + complex(length / 2, -2.8), words, "middle")
+
+def check_bar(at: complex, words: tuple[Run, ...]) -> tuple[Line | Text, ...]:
+    """A bar of 50 mm with a tick each 10 mm, from its left end, and words above it: lay a ruler on it to see that a
+    print is true to scale."""
+    heights = {mm: 2.0 if mm in (0, BAR) else 1.2 for mm in range(0, BAR + 1, 10)}
+    ticks = (Line(at + mm, at + mm - height * 1j, strokes.DIMENSION) for mm, height in heights.items())
+    return Line(at, at + BAR, strokes.OUTLINE), *ticks, Text(at + complex(BAR / 2, -2.8), words, "middle")
 
 
 def _centred(runs: tuple[Run, ...], at: complex) -> Text:

@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import accumulate, islice, pairwise
+from operator import add
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -169,10 +170,7 @@ class Obstacles:
     vectors: tuple[Segment, ...] = ()
 
     def __add__(self, other: Obstacles) -> Obstacles:
-        return Obstacles(
-            self.solid + other.solid, self.dashed + other.dashed, self.areas + other.areas,
-            self.writing + other.writing, self.thick + other.thick, self.vectors + other.vectors,
-        )  # fmt: skip
+        return Obstacles(*map(add, vars(self).values(), vars(other).values()))
 
 
 TRIED = 48  # places at a time
@@ -220,7 +218,9 @@ def first_free(
     middles = np.concatenate(choices)
     half = np.repeat(np.array(halves), sizes)
     reach = half + clear * (1 + 1j)
-    free = ~(_covered(middles, reach, around) | np.isnan(middles))
+    covered: Flags = np.any(stand_on(middles, reach, boxes_of(around.areas)), axis=1)
+    covered[meets(segments_of((*around.solid, *around.dashed)), middles, reach)[1]] = True
+    free = ~(covered | np.isnan(middles))
     if panel is not None:
         low, high = middles - reach, middles + reach
         free &= (low.real >= panel.left) & (high.real <= panel.right)
@@ -233,13 +233,6 @@ def first_free(
         if place is not None:  # it is in the way of those that come behind it
             free &= ~stand_on(middles, reach, np.array([(middles[first + place],), (own,)]))[:, 0]
     return found
-
-
-def _covered(middles: Points, reach: Points, around: Obstacles) -> Flags:
-    """Whether boxes of these middles and half sizes are covered."""
-    covered: Flags = np.any(stand_on(middles, reach, boxes_of(around.areas)), axis=1)
-    covered[meets(segments_of((*around.solid, *around.dashed)), middles, reach)[1]] = True
-    return covered
 
 
 def free_boxes(
@@ -317,21 +310,14 @@ def clearest(prices: Floats, clear: Sequence[tuple[Points, float, float]], aroun
     def charge(some: list[int]) -> Floats:
         costs = np.zeros(len(some))
         for points, room, per_mm in clear:
-            costs += per_mm * np.clip(room - least_distance(points[some], around), 0.0, None).sum(axis=-1)
+            nearest = distances(points[some], around).min(axis=-1, initial=np.inf)
+            costs += per_mm * np.clip(room - nearest, 0.0, None).sum(axis=-1)
         return costs
 
     order: list[int] = np.argsort(np.round(prices / ROUNDING), kind="stable").tolist()
     place = cheapest(zip(prices[order].tolist(), order, strict=True), charge)
     assert place is not None, "strokes make a place dearer, they do not take it"
     return place
-
-
-def least_distance(points: Points, segments: Points) -> Floats:
-    """Least distance of each point to any segment; infinite where there is none."""
-    if not len(segments):
-        return np.full(points.shape, np.inf)
-    least: Floats = distances(points, segments).min(axis=-1)
-    return least
 
 
 def distances(points: NDArray[Any], segments: Points) -> Floats:
