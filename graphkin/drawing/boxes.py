@@ -320,9 +320,13 @@ class FigurePage:
     def term(self, key: str) -> str:
         return term(key, self.language)
 
+    def punctuation(self, key: str) -> str:
+        """A mark of punctuation behind words of `term`."""
+        return punctuation(key, self.language)
+
     def at_drivers(self, name: str) -> RichText:
         """The name of a figure, and the values of the drivers: the line below its title."""
-        return name + punctuation("colon", self.language) + drivers(self.sheet, self.letters)
+        return name + self.punctuation("colon") + drivers(self.sheet, self.letters)
 
     def said(self, key: str, /, **gaps: object) -> tuple[RichText, ...]:
         """A phrase in each language of the page, a single line if its formulas can stand once."""

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.account.headings import punctuation
 from graphkin.construction.centres import Centres, LinkPair
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, prose, row
@@ -72,7 +71,7 @@ def centres_in_motion(
     figure = centred(content, page.width, content.height + 2 * ROOM, lambda around: whole, lambda piece, around: piece)
     return page.drawing(
         page.term("centres in motion"), figure, page.scale("mechanism"), title="centres",
-        said=page.term("centres in motion") + punctuation("full stop", page.language),
+        said=page.term("centres in motion") + page.punctuation("full stop"),
     )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import partial
 
 from graphkin.account.given import drivers
-from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, figure_title, punctuation, remarks, term
+from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, figure_title, remarks, term
 from graphkin.account.voice import Account
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
@@ -143,12 +143,10 @@ def polygons_beside(page: FigurePage, sheets: Sequence[tuple[str, Sheet]]) -> Dr
     page = replace(page, width=columns * (wide + GUTTER) - GUTTER)
     room = Room((wide - ROOM_BESIDE, tall - ROOM_BESIDE), (wide - ROOM_BESIDE, tall - ROOM_BESIDE))
     of_each = [sheet.scales_for(room) for _, sheet in sheets]
-    velocity, acceleration = (max(scales.of(order) for scales in of_each) for order in DIAGRAMS[1:])
-    scales = Scales(page.sheet.scales.length, velocity, acceleration)
+    coarsest = (max(scales.of(order) for scales in of_each) for order in DIAGRAMS[1:])
+    scales = Scales(page.sheet.scales.length, *coarsest)
     drawn = [(name, sheet.at(scales)) for name, sheet in sheets]
-    shown: list[DiagramName] = ["velocity"]
-    if any(sheet.vectors["acceleration"] for _, sheet in sheets):
-        shown.append("acceleration")
+    shown = DIAGRAMS[1:] if any(sheet.vectors["acceleration"] for _, sheet in sheets) else DIAGRAMS[1:2]
     pages = [_page(page, drawn[k : k + columns], shown, (wide, tall)) for k in range(0, len(drawn), columns)]
     further = (replace(one, title=f"{one.title} ({number})") for number, one in enumerate(pages[1:], 2))
     return replace(pages[0], further=tuple(further))
@@ -158,12 +156,11 @@ def _page(
     page: FigurePage, some: Sequence[tuple[str, Sheet]], shown: Sequence[DiagramName], size: tuple[float, float]
 ) -> Drawing:
     page = replace(page, sheet=some[0][1])
-    colon, names = punctuation("colon", page.language), [name for name, _ in some]
-    scales = [page.term(FIGURE_WORDS[diagram]) + colon + page.scale(diagram) for diagram in shown]
+    names, positions = [name for name, _ in some], (_position(page, *one, shown, size) for one in some)
+    scales = (page.term(FIGURE_WORDS[diagram]) + page.punctuation("colon") + page.scale(diagram) for diagram in shown)
     return page.drawing(
-        spaced(";  ", scales), row(*(_position(page, name, sheet, shown, size) for name, sheet in some), gap=GUTTER),
-        "",
-        title="polygons", said=punctuation("symbol comma", page.language).join(names), metadata={"positions": names},
+        spaced(";  ", scales), row(*positions, gap=GUTTER), "", title="polygons",
+        said=page.punctuation("symbol comma").join(names), metadata={"positions": names},
     )  # fmt: skip
 
 
@@ -181,7 +178,7 @@ def _position(
 
     said = term("position named", page.language, position=name)
     named = sheet.scene.question.positions is not None and name in sheet.scene.question.positions.names
-    head = (said + punctuation("colon", page.language)) * named + drivers(sheet, letters)
+    head = (said + page.punctuation("colon")) * named + drivers(sheet, letters)
     found = [
         letters.vector(r.symbol) + f" = {printed(measured(r, units))} {r.symbol.unit(units).written}"
         for r in read_off(sheet, [s for s in sheet.scene.question.find if s.scope == "motion" and not s.at])

@@ -304,19 +304,15 @@ def _dimensions(shown: Shown, drawn: Piece) -> Piece:
             continue
         *lines, text = choices[0]
         assert isinstance(text, Text)
-        labels.append(Label(text._replace(anchor="start", id=f"label-{id}", classes=("label",)), _mark(lines)))
+        mark: Mark = 0j
+        match lines:  # the number stands at the middle of its arc, or at its line, behind two extension lines
+            case [Arc() as arc, *_]:
+                mark = arc.at((arc.start + arc.end) / 2)
+            case [_, _, Line(start, end), *_]:
+                mark = start, end
+        labels.append(Label(text._replace(anchor="start", id=f"label-{id}", classes=("label",)), mark))
         parts += lines
     return Piece({"answers": tuple(parts)} if parts else {}, tuple(labels))
-
-
-def _mark(lines: Sequence[Primitive]) -> Mark:
-    """The part of a dimension at which its number stands: the middle of its arc, or its line."""
-    arc = next((part for part in lines if isinstance(part, Arc)), None)
-    if arc is not None:
-        return arc.at((arc.start + arc.end) / 2)
-    line = lines[2]
-    assert isinstance(line, Line)
-    return line.start, line.end
 
 
 def _limits_of_crank(shown: Shown) -> tuple[float, complex, complex, complex] | None:

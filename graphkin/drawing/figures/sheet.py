@@ -13,16 +13,7 @@ from typing import Literal, TypeAlias
 
 from graphkin.account.account import written_lines
 from graphkin.account.given import drivers
-from graphkin.account.headings import (
-    FIGURE_WORDS,
-    describe,
-    dimensions_in,
-    facts,
-    figure_title,
-    punctuation,
-    term,
-    titles,
-)
+from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, facts, figure_title, term, titles
 from graphkin.checking.report import Compared, Report
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName
@@ -184,7 +175,7 @@ def _below(frame: Box, words: tuple[Run, ...], anchor: str = "start") -> Piece:
 def _caption(page: FigurePage, diagram: DiagramName) -> RichText:
     unit = dimensions_in(page.sheet, page.language) if diagram == "mechanism" else ""
     parts = page.term(FIGURE_WORDS[diagram]), page.scale(diagram), unit
-    return spaced(punctuation("list comma", page.language), filter(None, parts))
+    return spaced(page.punctuation("list comma"), filter(None, parts))
 
 
 def _panel(box: Box, caption: Words) -> Piece:
@@ -297,7 +288,7 @@ def _held(page: FigurePage, before: Remainder, after: Remainder) -> str:
         FIGURE_WORDS["acceleration"]: len(before.coriolis) - len(after.coriolis),
     }  # fmt: skip
     shown = [page.term(kind) for kind, count in kinds.items() if count]
-    return punctuation("symbol comma", page.language).join(shown)
+    return page.punctuation("symbol comma").join(shown)
 
 
 def heading(page: FigurePage, frame: Box) -> Piece:
@@ -425,9 +416,8 @@ def title_block(page: FigurePage, shown: Sequence[Compared], box: Box) -> Piece:
     for runs in title:
         y += 1.25 * runs[0].size
         words.append(Text(complex(left, y), runs))
-    comma, colon = (punctuation(key, language) for key in ("list comma", "colon"))
-    tools = page.term("instrument") + colon + page.term(f"instrument {sheet.instrument}")
-    second = sheet.scene.name + comma + tools
+    tools = page.term("instrument") + page.punctuation("colon") + page.term(f"instrument {sheet.instrument}")
+    second = sheet.scene.name + page.punctuation("list comma") + tools
     words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
     for i, diagram in enumerate(("mechanism", *POLYGONS)):
         text = fitted(page.scale(diagram), 3.0, two - one - 4.0)

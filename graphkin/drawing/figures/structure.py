@@ -4,9 +4,10 @@ and the groups taken apart one by one against the order of solution, for one dri
 from __future__ import annotations
 
 from cmath import phase
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import chain
 
 from graphkin.account.notation import Notation
 from graphkin.construction.board.sheet import Sheet
@@ -14,7 +15,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, panel, prose, row, rows
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, on_page
+from graphkin.drawing.ink.primitives import Circle, Group, Line, on_page
 from graphkin.drawing.ink.symbols import JOINT_RADIUS
 from graphkin.drawing.parts.mechanism import bare_mechanism, links_alone
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
@@ -61,18 +62,9 @@ def structure_figure(page: FigurePage, others: Sequence[Structure] = ()) -> Draw
 def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
     """The numbered diagram, as large as it fits, with a badge at each compound hinge and each high pair."""
     box = Box.around(sheet.points.values() or (0j,))
-    room = min((panel.width - 26.0) / max(box.width, 1.0), (panel.height - 26.0) / max(box.height, 1.0))
-    small = sheet.larger(room)
-    piece = bare_mechanism(small, letters)
-    for _ in range(FITS):  # discs and cams reach beyond the points, symbols keep their size
-        drawn = ink_box(piece.drawn)
-        over = 1.0 if drawn is None else max(drawn.width / (panel.width - 4.0), drawn.height / (panel.height - 4.0))
-        if over <= 1.0:
-            break
-        room /= over
-        small = sheet.larger(room)
-        piece = bare_mechanism(small, letters)
-    here = MechanismOnPaper(small, letters)
+    times = min((panel.width - 26.0) / max(box.width, 1.0), (panel.height - 26.0) / max(box.height, 1.0))
+    piece, times = _fitted(lambda size: bare_mechanism(sheet.larger(size), letters), times, panel.grown(-2.0))
+    here = MechanismOnPaper(sheet.larger(times), letters)
     labels = []
     for point, names in sheet.structure.hinges.items():
         count = len([n for n in names if n in sheet.scene.by_name])
@@ -88,6 +80,20 @@ def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
     whole = joined((dashed, piece) if sheet.scene.instead_of is None else (piece, dashed))
     ink = ink_box(whole.drawn) or panel
     return with_labels(moved_piece(whole, panel.centre - ink.centre), panel)
+
+
+def _fitted(draw: Callable[[float], Piece], times: float, room: Box) -> tuple[Piece, float]:
+    """A drawing at a size, smaller until it fits a room, with its size: discs and cams reach beyond the points, and
+    symbols keep their size."""
+    piece = draw(times)
+    for _ in range(FITS):
+        ink = ink_box(piece.drawn)
+        over = 1.0 if ink is None else max(ink.width / room.width, ink.height / room.height)
+        if over <= 1.0:
+            break
+        times /= over
+        piece = draw(times)
+    return piece, times
 
 
 def _counted(structure: Structure, spoken: str) -> list[tuple[Words, bool]]:
@@ -172,48 +178,30 @@ def _joints(element: Element) -> tuple[list[Pair], list[Pair]]:
 def _group(sheet: Sheet, elements: Sequence[Element], letters: Notation, tag: str, panel: Box) -> Piece:
     """The links of a group alone, in their places, inner joints filled and outer ones open; links that replace a higher
     pair are dashed.  As large as the panel allows, but not larger than in the diagram of the sheet."""
-    here = MechanismOnPaper(sheet, letters)
-    times, (parts, labels) = 1.0, _drawn_apart(here, elements)
-    room = complex(panel.width - 16.0, panel.height - 14.0)
-    for _ in range(FITS):  # symbols keep their size
-        drawn = ink_box(parts)
-        if drawn is None:
-            return Piece()
-        over = max(drawn.width / room.real, drawn.height / room.imag)
-        if over <= 1.0:
-            break
-        times /= over
-        parts, labels = _drawn_apart(MechanismOnPaper(sheet.larger(times), letters), elements)
-    inner, drawn = panel.grown(-0.6), ink_box(parts)
-    if drawn is not None and (drawn.width > inner.width or drawn.height > inner.height):
-        times = _times_for_points(here, elements, room)
-        parts, labels = _drawn_apart(MechanismOnPaper(sheet.larger(times), letters), elements)
-    piece = Piece({"mechanism": (Group(tuple(parts), id=f"group-{tag}"),)}, tuple(labels))
-    ink = ink_box(piece.drawn) or panel
+    def drawn(times: float) -> Piece:
+        return _drawn_apart(MechanismOnPaper(sheet.larger(times), letters), elements, f"group-{tag}")
+
+    room, inner = Box(0.0, 0.0, panel.width - 16.0, panel.height - 14.0), panel.grown(-0.6)
+    piece, _ = _fitted(drawn, 1.0, room)
+    ink = ink_box(piece.drawn)
+    if ink is None:
+        return Piece()
+    if ink.width > inner.width or ink.height > inner.height:  # rails cross the room, which the points are to fill
+        points = {p for e in elements for n in e.members for p in sheet.structure.links[n].points}
+        box = Box.around([z for ref, z in sheet.points.items() if not ref.link and ref.point in points] or [0j])
+        sides = (room.width, box.width), (room.height, box.height)
+        piece = drawn(min((1.0, *(POINTS_SHARE * side / size for side, size in sides if size > 0.0))))
+        ink = ink_box(piece.drawn) or panel
     whole = moved_piece(piece, panel.centre - ink.centre)
     layers = {name: cut_to(things, inner) for name, things in whole.layers.items()}
     return with_labels(replace(whole, layers=layers), inner)
 
 
-def _times_for_points(here: MechanismOnPaper, elements: Sequence[Element], room: complex) -> float:
-    """The factor at which the points of elements fill a room (mm) that longer rails cross; at most 1."""
-    structure = here.sheet.structure
-    points = {p for e in elements for n in e.members for p in structure.links[n].points}
-    box = Box.around([here.places[p] for p in points if p in here.places] or [0j])
-    sides = (room.real, box.width), (room.imag, box.height)
-    return min((1.0, *(POINTS_SHARE * side / size for side, size in sides if size > 0.0)))
-
-
-def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[list[Primitive], list[Label]]:
-    """Links of elements with their joints, and the names of both."""
+def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element], id: str) -> Piece:
+    """Links of elements with their joints as a group, and the names of both."""
     structure = here.sheet.structure
     links = dict.fromkeys(n for e in elements for n in e.members)  # in one order, whatever the process
-    inner: list[Pair] = []
-    outer: list[Pair] = []
-    for element in elements:
-        more = _joints(element)
-        inner += more[0]
-        outer += more[1]
+    inner, outer = (tuple(chain.from_iterable(joints)) for joints in zip(*map(_joints, elements), strict=True))
     parts, labels = links_alone(here, links, 1, replaced=True)
     for name in links:
         dashed = strokes.REDUNDANT.coloured(here.colour(name))
@@ -257,7 +245,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
             at = on_page(here.places[point])
             parts.append(Circle(at, JOINT_RADIUS * 0.85, fill=fill, stroke=strokes.OUTLINE))
             labels.append(Label.of(rich(here.letters.point(point), 3.0), at))
-    return parts, labels
+    return Piece({"mechanism": (Group(tuple(parts), id=id),)}, tuple(labels))
 
 
 FIGURES = (Figure("structure", structure_figure, "structures", of_all=True, place=6),)
