@@ -309,24 +309,17 @@ def _pointer(inside: Box, solid: Sequence[Segment], centre: Centre) -> Segment:
     """The place of an arrow to a far centre: it points straight at the centre, clear of strokes, near the edge."""
     prices: list[float] = []
     arrows: list[Segment] = []
-    middle, far = inside.centre, None if centre.point is None else on_page(centre.point)
-    for sense in (1, -1) if far is None else (1,):
-        if far is not None:
-            straight = unit(far - middle)
-        else:
-            assert centre.direction is not None
-            straight = sense * on_page(centre.direction)
+    middle, far, along = inside.centre, centre.point, on_page(centre.direction or 0j)
+    for turned, straight in enumerate((along, -along) if far is None else (unit(on_page(far) - middle),)):
         for aside in ASIDES:
             start = middle + 1j * straight * aside
-            aim = straight if far is None else unit(far - start)
+            aim = straight if far is None else unit(on_page(far) - start)
             chord = inside.clip(start, start + 1e4 * aim)
-            if chord is None:
-                continue
-            long = abs(chord[1] - chord[0])
+            long = abs(chord[1] - chord[0]) if chord is not None else 0.0
             for back in (0.0, 4.0, 10.0):
-                if long >= ARROW + back:
+                if chord is not None and long >= ARROW + back:
                     tip = chord[1] - back * aim
-                    prices.append(0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0))
+                    prices.append(0.12 * abs(aside) + 0.5 * back + 3.0 * turned)
                     arrows.append((tip - ARROW * aim, tip))
     assert arrows, "a panel is larger than an arrow"
     tails, tips = np.array(arrows).T[..., None]
@@ -350,12 +343,12 @@ LEGEND = ("legend",)
 def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
     """Draw all centres of a position on a page of its own; centres whose lines have no room for their names there again
     on further pages, each in a picture of its own."""
-    sheet, spoken, letters = page.sheet, page.language, page.letters
+    sheet, letters = page.sheet, page.letters
     back = background(bare_mechanism(sheet, letters), "touch")
     if sheet.scene.instead_of is not None:  # the bars to centres of curvature, which have centres too
         back = joined((Piece({"construction": replacing_links(MechanismOnPaper(sheet, letters))}), back))
     content = near_box(centres, ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0), MOST)
-    side = _side(centres, letters, spoken)
+    side = _side(page, centres)
     wide = max(content.width, SMALLEST_FIGURE[0]) + 2 * ROOM - BESIDE
     high = max(content.height + 2 * ROOM, SMALLEST_FIGURE[1] + 2 * ROOM, side.height)
     page = page.wide_enough(wide + BESIDE + side.width)
@@ -364,14 +357,12 @@ def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
         lambda whole, around: named_centres(whole, around, centres),
     )
     velocities = velocity_sentences(centres)
-    report = _report(centres, velocities, letters, spoken, page.width)
+    body = column(row(figure, side, gap=BESIDE), _report(page, centres, velocities), gap=GAP)
+    said = describe(sheet, ("mechanism",), page.language) + "\n" + _description(page, centres, velocities)
     made = page.drawing(
-        page.at_drivers(page.term("centres")),
-        column(row(figure, side, gap=BESIDE), report, gap=GAP), page.scale("mechanism"), title="centres",
-        said=describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, velocities, letters, spoken),
-    )  # fmt: skip
+        page.at_drivers(page.term("centres")), body, page.scale("mechanism"), title="centres", said=said)
     some = untold(centres, figure.piece.drawn)
-    return replace(made, further=tuple(_centre_by_centre(centres, some, letters, spoken))) if some else made
+    return replace(made, further=tuple(_centre_by_centre(page, centres, some))) if some else made
 
 
 def background(piece: Piece, *also: str) -> Piece:
@@ -384,11 +375,11 @@ def background(piece: Piece, *also: str) -> Piece:
     return Piece({"mechanism": pale(kept)}, names, piece.marks)
 
 
-def _side(centres: Centres, letters: Notation, language: str) -> Block:
+def _side(page: FigurePage, centres: Centres) -> Block:
     """The column beside the mechanism: circle diagram, legend, and the centres in the order of construction, with their
     constructions."""
-    radius = RADIUS.get(len(centres.names), 23.0)
-    found = [(c.number, letters.centre(c.pair), _how_found(c, letters, language)) for c in centres.found if c.number]
+    radius, letters, spoken = RADIUS.get(len(centres.names), 23.0), page.letters, page.language
+    found = [(c.number, letters.centre(c.pair), _how_found(c, letters, spoken)) for c in centres.found if c.number]
     wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for _, name, _ in found)])
     # long names of links need more room, in the circle diagram and in the list: of each line, and the × at its end
     longest = max(runs_width(plain(name, KNOT, bold=True)) for name in centres.names)
@@ -396,16 +387,16 @@ def _side(centres: Centres, letters: Notation, language: str) -> Block:
     width = max(SIDE, 2 * (radius + OUTSIDE + longest), 7.0 + wide + max(lines, default=0.0))
     circle = panel(width, 2 * radius + 18.0, lambda room: Piece(
         {"centres": (circle_diagram(centres, room.centre, radius),)}))
-    title = prose((term("circle diagram", language),), width, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
+    title = prose((page.term("circle diagram"),), width, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
     order = (
         row(numeral(number, 7.0, classes=LEGEND), prose((name,), wide, classes=LEGEND),
             prose((how,), width - 7.0 - wide, classes=LEGEND))
         for number, name, how in found
     )  # fmt: skip
-    return column(title, circle, column(*_legend(centres, language), gap=0.8), column(*order), gap=1.5)
+    return column(title, circle, column(*_legend(page, centres), gap=0.8), column(*order), gap=1.5)
 
 
-def _legend(centres: Centres, language: str) -> Iterator[Block]:
+def _legend(page: FigurePage, centres: Centres) -> Iterator[Block]:
     """The mark of each kind of centre."""
     frame = centres.scene.frame.name
     kinds: dict[str, Callable[[Centre], bool]] = {
@@ -417,7 +408,7 @@ def _legend(centres: Centres, language: str) -> Iterator[Block]:
         first = next((c for c in centres.found if holds(c)), None)
         if first is not None:
             mark = Block(Piece({"centres": mark_of(first, frame, 3.0 + 2.0j)}), 0.0, 8.0)
-            yield row(mark, prose((term(kind, language),), SIDE - 8.0, classes=LEGEND))
+            yield row(mark, prose((page.term(kind),), SIDE - 8.0, classes=LEGEND))
 
 
 def _how_found(centre: Centre, letters: Notation, language: str) -> Words:
@@ -425,27 +416,23 @@ def _how_found(centre: Centre, letters: Notation, language: str) -> Words:
     return _lines_of(centre, letters) or term(f"way {centre.way or 'none'}", language)
 
 
-def _report(
-    centres: Centres, velocities: Sequence[Phrase], letters: Notation, language: str, width: float
-) -> Block:  # fmt: skip
-    """The centres that Kennedy's theorem does not give, with the reason, and the velocities by centres."""
-    lines: list[Words] = []
-    for each in languages(language):
+def _report(page: FigurePage, centres: Centres, velocities: Sequence[Phrase]) -> Block:
+    """The centres that Kennedy's theorem does not give, with the reason, and the velocities by centres: their formulas
+    once, with the further languages in brief."""
+    lines, told, every = list[Words](), list[Words](), languages(page.language)
+    for each in every:
         for centre in centres.indeterminate:
             by = Phrase(f"centre {centre.way}", centre=centre.pair, kept=listed(centres.kept)) if centre.way else None
-            sentences = [_rich(one, each, letters) for one in (centre.why, by) if one is not None]
+            sentences = [_rich(one, each, page.letters) for one in (centre.why, by) if one is not None]
             lines.append(spaced(word("sentence joint", each), sentences))
-    head = [term("velocities by centres", language)] if velocities else []
-    told = [said for phrase in velocities for said in _in_all(phrase, language, letters)]
-    return column(prose(lines, width, 3.0, classes=TOLD), prose(head, width, 3.2, bold=True, classes=TOLD),
-                  prose(told, width, 3.0, classes=TOLD))  # fmt: skip
-
-
-def _in_all(phrase: Phrase, language: str, letters: Notation) -> tuple[RichText, ...]:
-    """A sentence in each language of a sheet: its formulas and symbols once, with the further languages in brief."""
-    sentences = [_rich(phrase, each, letters) for each in languages(language)]
-    brief = [word(f"{phrase.key} briefly", each, "") for each in languages(language)[1:]]
-    return (spaced(" ", (sentences[0], *brief)),) if brief and all(brief) else tuple(dict.fromkeys(sentences))
+    for phrase in velocities:
+        sentences = [_rich(phrase, each, page.letters) for each in every]
+        brief = [word(f"{phrase.key} briefly", each, "") for each in every[1:]]
+        told += (spaced(" ", (sentences[0], *brief)),) if brief and all(brief) else dict.fromkeys(sentences)
+    head = [page.term("velocities by centres")] if velocities else []
+    wide = page.width
+    return column(prose(lines, wide, 3.0, classes=TOLD), prose(head, wide, 3.2, bold=True, classes=TOLD),
+                  prose(told, wide, 3.0, classes=TOLD))  # fmt: skip
 
 
 def _rich(phrase: Phrase, language: str, letters: Notation) -> RichText:
@@ -461,10 +448,10 @@ def _rich(phrase: Phrase, language: str, letters: Notation) -> RichText:
     return rich_text(phrase, language, show)
 
 
-def _description(centres: Centres, velocities: Sequence[Phrase], letters: Notation, language: str) -> str:
+def _description(page: FigurePage, centres: Centres, velocities: Sequence[Phrase]) -> str:
     """Every centre in words, for readers who do not see the figure."""
-    said = []
-    for each in languages(language):
+    said, letters = [], page.letters
+    for each in languages(page.language):
         for centre in centres.found:
             place = "?" if centre.direction is None else "∞"
             if centre.point is not None:
@@ -530,16 +517,14 @@ def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
                  and f"label-lines-{id_of(c.pair)}" not in ids)  # fmt: skip
 
 
-def _centre_by_centre(
-    centres: Centres, some: Sequence[Centre], letters: Notation, language: str
-) -> Iterator[Drawing]:
+def _centre_by_centre(page: FigurePage, centres: Centres, some: Sequence[Centre]) -> Iterator[Drawing]:
     """Pages with a small picture of each of some centres: the mechanism, the two lines through known centres, and their
     crossing."""
-    small = centres.at(centres.sheet.scales_for(SMALL))
+    small, letters = centres.at(centres.sheet.scales_for(SMALL)), page.letters
     behind = Piece(background(bare_mechanism(small.sheet, letters), "touch").layers)
-    page = FigurePage(small.sheet, "centres", language, letters, WIDTH)
+    page = replace(page, sheet=small.sheet, width=WIDTH)
     for i in range(0, len(some), COLUMNS * ROWS):
-        pictures, said = [], [figure_title(small.sheet, "lines of centres", language)]
+        pictures, said = [], [figure_title(small.sheet, "lines of centres", page.language)]
         for centre in (small.of(*crowded.pair) for crowded in some[i : i + COLUMNS * ROWS]):
             equation = letters.centre(centre.pair) + " = " + _lines_of(centre, letters)
             said.append(f"{centre.number}. {equation.plain('')}")

@@ -11,7 +11,8 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+
+import numpy as np
 
 from graphkin.account.headings import number, term
 from graphkin.account.voice import account_of
@@ -23,9 +24,9 @@ from graphkin.construction.board.steps import Stroke as DrawnStroke
 from graphkin.construction.cam_sheet import cam_sheet, divisions
 from graphkin.construction.tasks import length_letters
 from graphkin.construction.touching import CamStation
+from graphkin.drawing import chart
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import STEP, WORKED, Block, FigurePage, picture, row, spoken, table, worked_page
-from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import (
@@ -55,9 +56,6 @@ from graphkin.version import __version__
 from graphkin.words import Phrase, in_all, languages, say, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import amount, on_paper, printed, product
-
-if TYPE_CHECKING:
-    from graphkin.drawing.chart import Figure as Chart
 
 # -- a synthesis -------------------------------------------------------------------------------------------------------
 
@@ -274,21 +272,8 @@ CHART_WIDTH, CHART_HEIGHT = 150.0, 95.0
 def choice_chart(
     design: Design, key: str, at: Callable[[float], float | None], span: tuple[float, float],
     here: tuple[float, float], best: tuple[float, float], language: str,
-) -> ChartPage:  # fmt: skip
+) -> chart.ChartPage:  # fmt: skip
     """The least transmission angle over the values that a free datum may have, with the design's own and the best."""
-    import numpy as np
-
-    from graphkin.drawing.chart import (
-        SOLID_AND_DASHED,
-        add_labels,
-        add_panel,
-        add_words,
-        count_steps,
-        degree_step,
-        look,
-        marker,
-    )
-
     # a range without end is shown as far as it tells
     low, high = max(span[0], min(here[0], best[0]) / 4), min(span[1], 4 * max(here[0], best[0]))
     low = span[0] if span[0] > low / 3 else low
@@ -296,25 +281,25 @@ def choice_chart(
     y = np.array([angle if (angle := at(float(value))) is not None else np.nan for value in x])
     title = say(Phrase("choice chart", datum=word(f"datum {key}", language)), language)
 
-    def paint(figure: Chart) -> None:
-        add_words(figure, Text(complex(8.0, 10.0), rich(title, 4.0, bold=True)))
+    def paint(figure: chart.Figure) -> None:
+        chart.add_words(figure, Text(complex(8.0, 10.0), rich(title, 4.0, bold=True)))
         box = Box(20.0, 22.0, CHART_WIDTH - 8.0, CHART_HEIGHT - 16.0)
-        axes = add_panel(figure, box, "choice", f"{word('least angle', language)} (°)",
-                         f"{word(f'datum {key}', language)} ({design.units.length})")  # fmt: skip
+        axes = chart.add_panel(figure, box, "choice", f"{word('least angle', language)} (°)",
+                               f"{word(f'datum {key}', language)} ({design.units.length})")  # fmt: skip
         axes.set_xlim(low, high)
         top = 5.0 * math.ceil((float(np.nanmax(y)) + 3.0) / 5.0)
         axes.set_ylim(0.0, top)
-        count_steps(axes.xaxis)
-        count_steps(axes.yaxis, degree_step(top, 9))
-        axes.plot(x, y, **look(SOLID_AND_DASHED[0]))
-        axes.plot([here[0]], [here[1]], **marker("circle"))
-        axes.plot([best[0]], [best[1]], **marker("up"))
+        chart.count_steps(axes.xaxis)
+        chart.count_steps(axes.yaxis, chart.degree_step(top, 9))
+        axes.plot(x, y, **chart.look(chart.SOLID_AND_DASHED[0]))
+        axes.plot([here[0]], [here[1]], **chart.marker("circle"))
+        axes.plot([best[0]], [best[1]], **chart.marker("up"))
         both = dict.fromkeys((here, best))
         marks = [(f"{number(value, 4)}: {number(angle, 4)}°", (value, angle)) for value, angle in both]
-        add_labels(axes, marks, toward=((-math.pi / 2,), (math.pi / 2,))[: len(marks)])
+        chart.add_labels(axes, marks, toward=((-math.pi / 2,), (math.pi / 2,))[: len(marks)])
 
     facts = {"figure": "choice", "design": design.name, "graphkin": __version__}
-    return ChartPage(CHART_WIDTH, CHART_HEIGHT, paint, title=title, desc=title, lang=language, metadata=facts)
+    return chart.ChartPage(CHART_WIDTH, CHART_HEIGHT, paint, title=title, desc=title, lang=language, metadata=facts)
 
 
 # -- a cam -------------------------------------------------------------------------------------------------------------
@@ -399,7 +384,7 @@ def cam_given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
 
 def _law(by: str, language: str) -> str:
     """The law of a piece; that of a dwell is none."""
-    return term(f"law {by}", language, by) if by else term("law dwell", language)
+    return term(f"law {by or 'dwell'}", language, by)
 
 
 def _given(scene: Mechanism, cam: LawCam, language: str) -> RichText:

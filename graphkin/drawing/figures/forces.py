@@ -423,8 +423,7 @@ def _drawn_polygon(
         tail, tip = vector.tail + shift, vector.tip + shift
         step = group.in_polygon(vector, links)
         if shift:
-            aside = (Line.between(z, w, strokes.CONSTRUCTION)
-                     for z, w in ((vector.tail, tail), (vector.tip, tip)))  # fmt: skip
+            aside = (Line.between(*ends, strokes.CONSTRUCTION) for ends in ((vector.tail, tail), (vector.tip, tip)))
             plate.put("construction", *aside, step=step)
         arrow(vector, tail, tip, step, 0 if not vector.known or abs(vector.span) > 3.0 else 2)
     for whole in _wholes(vectors):
@@ -435,16 +434,13 @@ def _drawn_polygon(
         plate.name(rich(sign(letter), 3.0), place + shifts.get(_key(vector), 0j), name, rank=1,
                    step=group.in_polygon(vector, links))  # fmt: skip
     unknown = [v for v in vectors if not v.known]
-    for vector in unknown:
-        if abs(vector.span) <= SHORT:
-            plate.circle("construction", vector.tip, 0.4, strokes.BLACK)
-    for vector in unknown:
-        if vector.part != "t" and abs(vector.span) > SHORT:
-            # the line along which it was drawn, a little past its ends
-            past = 6.0 * unit(vector.span)
-            for z, w in ((vector.tail, vector.tail - past), (vector.tip, vector.tip + past)):
-                plate.put("construction", Line.between(z, w, strokes.DIRECTION), classes=("direction",),
-                          step=group.in_polygon(vector, links))  # fmt: skip
+    for vector in (v for v in unknown if abs(v.span) <= SHORT):
+        plate.circle("construction", vector.tip, 0.4, strokes.BLACK)
+    for vector in (v for v in unknown if v.part != "t" and abs(v.span) > SHORT):
+        # the line along which it was drawn, a little past its ends
+        past, step = 6.0 * unit(vector.span), group.in_polygon(vector, links)
+        for ends in ((vector.tail, vector.tail - past), (vector.tip, vector.tip + past)):
+            plate.put("construction", Line.between(*ends, strokes.DIRECTION), classes=("direction",), step=step)
     return with_labels(moved_piece(plate.piece, panel.centre - _box(vectors).centre), panel)
 
 
