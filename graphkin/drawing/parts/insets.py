@@ -309,7 +309,7 @@ INSET = 32.0, 26.0  # mm
 GUTTER = 2.0  # mm between insets
 
 
-def coriolis_terms(sheet: Sheet, diagram: DiagramName) -> list[CoriolisTerm]:
+def coriolis_terms(sheet: Sheet, diagram: DiagramName = "acceleration") -> list[CoriolisTerm]:
     """Each Coriolis vector of a polygon that is not zero, with its sliding velocity and the rule for its size."""
     velocities = {symbol: v for symbol, v in sheet.vectors["velocity"].items() if abs(v.span) > ZERO}
     rules = {t.symbol: t.size for e in sheet.equations for side in e.sides for t in side}
