@@ -64,24 +64,24 @@ class FreeDatum:
     at: Callable[[float], float | None] = field(compare=False)
 
 
-def _refused(where: str, found: Wording, wanted: Wording) -> Unsolvable:
-    return Unsolvable("not assembled", Problem(f"design.{where}", found, wanted))
+def _refused(where: str, found: str, wanted: Wording, **gaps: object) -> Unsolvable:
+    """The refusal of a datum; numbers in its gaps have six digits."""
+    said = {gap: f"{value:.6g}" if isinstance(value, float) else value for gap, value in gaps.items()}
+    return Unsolvable("not assembled", Problem(f"design.{where}", found, wanted, **said))
 
 
 def _quick_return(K: float, most: float | None = None) -> float:
     if K <= 1.0:
-        raise _refused("K", Phrase("is no quick return", key=f'{K:.6g}'), Phrase("k must be above 1"))
+        raise _refused("K", "is no quick return", "k must be above 1", key=K)
     return _lag(K, most)
 
 
 def _lag(K: float, most: float | None = None) -> float:
     """The acute angle of the crank between its limit positions (rad), pi (K - 1) / (K + 1), 0 for K = 1."""
     if K < 1.0:
-        raise _refused("K", Phrase("is below 1", key=f'{K:.6g}'), Phrase("k is the longer of two ways over"))
+        raise _refused("K", "is below 1", "k is the longer of two ways over", key=K)
     if most is not None and most <= K:
-        raise _refused(
-            "K", Phrase("cannot be reached", key=f"{K:.6g}"), Phrase("k must be below here", most=f"{most:.6g}")
-        )
+        raise _refused("K", "cannot be reached", "k must be below here", key=K, most=most)
     return math.pi * (K - 1.0) / (K + 1.0)
 
 
@@ -100,18 +100,13 @@ def synthesise(task: DesignTask) -> Synthesis:
 def _(task: SliderCrankTask) -> Synthesis:
     H, e = task.stroke, task.offset
     if task.K == 1.0:
-        said = Phrase("1 leaves the rod free offset 0 a")
-        raise _refused("K", said, Phrase("k must be above 1"))
+        raise _refused("K", "1 leaves the rod free offset 0 a", "k must be above 1")
     theta = _quick_return(task.K, 3.0)
     if e == 0.0:
-        raise _refused("offset", Phrase("offset zero gives k 1", K=f"{task.K:.6g}"), Phrase("an offset greater than 0"))
+        raise _refused("offset", "offset zero gives k 1", "an offset greater than 0", K=task.K)
     greatest = H / math.tan(theta)
     if e >= greatest:
-        raise _refused(
-            "offset",
-            Phrase("is too large for k", value=f"{e:.6g}", key=f"{task.K:.6g}"),
-            Phrase("it must be below", greatest=f"{greatest:.6g}"),
-        )
+        raise _refused("offset", "is too large for k", "it must be below", value=e, key=task.K, greatest=greatest)
     half = math.tan(theta / 2.0)
     # AC1 = BC + AB and AC2 = BC - AB enclose theta over the chord H, at the height e over it
     crank = math.sqrt(H * (H - 2.0 * e * half)) / 2.0
@@ -127,27 +122,20 @@ def _(task: SliderCrankTask) -> Synthesis:
 def _(task: CrankRockerTask) -> Synthesis:
     c, d = task.rocker, task.frame
     if task.swing >= 180.0:
-        raise _refused(
-            "swing",
-            Phrase("is too wide for a rocker", swing=f"{task.swing:.6g}"),
-            Phrase("it must be below 180 degrees"),
-        )
+        raise _refused("swing", "is too wide for a rocker", "it must be below 180 degrees", swing=task.swing)
     psi = math.radians(task.swing)
     # beyond it the circle over the chord lies between the arms of the rocker
     widest = math.pi / 2 + psi / 2
     theta = _lag(task.K, (math.pi + widest) / (math.pi - widest))
     low, high = sorted((c, c * abs(math.sin(psi - theta)) / math.sin(theta) if theta else math.inf))
     if high - low <= ABOUT_D * c:
-        said = Phrase("is twice 180 k 1 k 1 the", swing=f'{task.swing:.6g}')
-        raise _refused("swing", said, Phrase("another swing or another k"))
+        raise _refused("swing", "is twice 180 k 1 k 1 the", "another swing or another k", swing=task.swing)
     if not theta and d <= c:
-        said = Phrase("with a lies between c1 and c2 on", name=f'{d:.6g}')
-        raise _refused("frame", said, Phrase("it must be greater than the rocker", name=f'{c:.6g}'))
+        wanted = Phrase("it must be greater than the rocker", name=f"{c:.6g}")
+        raise _refused("frame", "with a lies between c1 and c2 on", wanted, name=d)
     if not low < d < high:
-        raise _refused(
-            "frame", Phrase("the circle about d with does not cut", name=f'{d:.6g}'),
-            Phrase("it must lie between and", least=f'{low:.6g}', greatest=f'{high:.6g}'),
-        )
+        found, wanted = "the circle about d with does not cut", "it must lie between and"
+        raise _refused("frame", found, wanted, name=d, least=low, greatest=high)
     first, second = c * direction(90.0 + task.swing / 2), c * direction(90.0 - task.swing / 2)
     # A lies so far from D along the middle of the swing, where the circle over the chord and that about D cross; the
     # circle of K = 1 is the line C1C2
@@ -160,9 +148,9 @@ def _(task: CrankRockerTask) -> Synthesis:
 def _(task: LimitsTask) -> Synthesis:
     first, second = (task.D + task.rocker * direction(angle) for angle in task.angles)
     if abs(task.A - task.D) < 1e-12 * task.rocker:
-        raise _refused("A", Phrase("lies where d lies"), Phrase("two pivots apart from each other"))
+        raise _refused("A", "lies where d lies", "two pivots apart from each other")
     if abs(first - second) < 1e-12 * task.rocker:
-        raise _refused("angles", Phrase("the two limit positions are one"), Phrase("two different angles"))
+        raise _refused("angles", "the two limit positions are one", "two different angles")
     return _crank_rocker(task, task.A, task.D, first, second, standing=True)
 
 
@@ -174,10 +162,9 @@ def _crank_rocker(
     AB, BC, CD, AD = (far - near) / 2, (far + near) / 2, abs(first - D), abs(A - D)
     sides = cross(D - A, first - A), cross(D - A, second - A)
     if AB < 1e-12 * BC:
-        raise _refused("A", Phrase("lies as far from c1 as from c2"), Phrase("move a off the line midway"))
+        raise _refused("A", "lies as far from c1 as from c2", "move a off the line midway")
     if sides[0] * sides[1] <= 0.0:
-        raise _refused("A", Phrase("lies between the lines c1d and c2d so"),
-                       Phrase("move a to one side of both lines"))
+        raise _refused("A", "lies between the lines c1d and c2d so", "move a to one side of both lines")
     side = 1.0 if sides[0] > 0 else -1.0
     if not standing:
         A, D = 0j, complex(AD, 0.0)
@@ -217,8 +204,7 @@ def _(task: GuideBarTask) -> Synthesis:
     shortest = sagitta / (2.0 * math.cos(half))
     rod = task.rod_length
     if rod <= shortest:
-        raise _refused("rod", Phrase("is too short to let the ram rest", rod=f'{rod:.6g}'),
-                       Phrase("it must exceed", shortest=f'{shortest:.6g}'))
+        raise _refused("rod", "is too short to let the ram rest", "it must exceed", rod=rod, shortest=shortest)
     C = complex(0.0, -task.centres)
     B = AB * direction(30.0)
     D = C + CD * unit(B - C)
@@ -232,37 +218,36 @@ def _(task: GuideBarTask) -> Synthesis:
 
 @synthesise.register
 def _(task: BarPositionsTask) -> Synthesis:
-    bars, others = task.positions, Phrase("other pivots or other positions")
+    bars, others = task.positions, "other pivots or other positions"
     ends = {"B": bars[0].B, "C": bars[0].C}
     if task.A is None or task.D is None:
-        apart = Phrase("three different places")
-        A, D = (_centre(tuple(getattr(bar, end) for bar in bars), end, apart) for end in "BC")
+        A, D = (_centre(tuple(getattr(bar, end) for bar in bars), end, "three different places") for end in "BC")
         chain = {"A": A, **ends, "D": D}
         names = "AB", "BC", "CD", "AD"
     else:
         A, D = task.A, task.D
         if abs(A - D) <= IN_LINE * abs(bars[0].C - bars[0].B):
-            raise _refused("A", Phrase("lies where d lies"), Phrase("two pivots apart from each other"))
+            raise _refused("A", "lies where d lies", "two pivots apart from each other")
         M, N = (_centre(tuple(bar.moved(z, bars[0]) for bar in bars), name, others) for name, z in (("A", A), ("D", D)))
         chain = {"A": A, "M": M, "N": N, "D": D}
         names = "AM", "MN", "DN", "AD"
     lengths = {name: abs(chain[name[1]] - chain[name[0]]) for name in names}
     for name, length in lengths.items():
         if length <= IN_LINE * max(lengths.values()):
-            raise _refused("positions", Phrase("and fall together", key=name[0], other=name[1]), others)
+            raise _refused("positions", "and fall together", others, key=name[0], other=name[1])
     return Synthesis(task, lengths, {k: z for k, z in chain.items() if k not in ends}, chain | ends)
 
 
-def _centre(points: tuple[complex, ...], letter: str, apart: Phrase) -> complex:
-    """The centre of the circle through three points; ``apart`` is what would make them different."""
+def _centre(points: tuple[complex, ...], letter: str, apart: str) -> complex:
+    """The centre of the circle through three points; ``apart`` names what would make them different."""
     a, b, c = points
     size = max(abs(b - a), abs(c - b), abs(a - c))
     if min(abs(b - a), abs(c - b), abs(a - c)) <= IN_LINE * size:
-        raise _refused("positions", Phrase("two of the places of are one so", letter=letter), apart)
+        raise _refused("positions", "two of the places of are one so", apart, letter=letter)
     area = cross(b - a, c - a)
     if abs(area) <= IN_LINE * size**2:
-        raise _refused("positions", Phrase("the three places of lie in one line", letter=letter),
-                       Phrase("a slide along that line or another point"))
+        found, wanted = "the three places of lie in one line", "a slide along that line or another point"
+        raise _refused("positions", found, wanted, letter=letter)
     u, v = b - a, c - a
     return a + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2.0 * area)
 
@@ -273,19 +258,17 @@ def _(task: FunctionTask) -> Synthesis:
     phi, psi = (np.radians([pair[i] for pair in task.pairs]) for i in (0, 1))
     lines = np.column_stack([np.cos(psi), -np.cos(phi), np.ones(3)])
     if np.linalg.cond(lines) > 1e12:
-        raise _refused(
-            "pairs", Phrase("the three pairs fix no four-bar"), Phrase("three pairs that differ in both angles")
-        )
+        raise _refused("pairs", "the three pairs fix no four-bar", "three pairs that differ in both angles")
     k = np.linalg.solve(lines, np.cos(phi - psi))
     if min(abs(k[0]), abs(k[1])) < 1e-9:
-        raise _refused("pairs", Phrase("they ask for a bar without end"), Phrase("change one of the angles"))
+        raise _refused("pairs", "they ask for a bar without end", "change one of the angles")
     AB, CD = (float(task.frame / k[i]) for i in (0, 1))
     A, D = 0j, complex(task.frame, 0.0)
     B, C = A + AB * direction(task.pairs[0][0]), D + CD * direction(task.pairs[0][1])
     turned = tuple(name for name, length in (("AB", AB), ("CD", CD)) if length < 0)
     lengths = {"AB": abs(AB), "BC": abs(C - B), "CD": abs(CD), "AD": task.frame}
     if lengths["BC"] < IN_LINE * max(lengths.values()):
-        raise _refused("pairs", Phrase("b and c fall together"), Phrase("change one of the angles"))
+        raise _refused("pairs", "b and c fall together", "change one of the angles")
     return Synthesis(task, lengths, {"A": A, "D": D}, {"A": A, "B": B, "C": C, "D": D}, turned)
 
 
