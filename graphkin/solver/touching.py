@@ -32,8 +32,9 @@ def measured(motion: Motion, pair: HigherPair) -> dict[str, Measure]:
         return {"pitch_point": at / metres, "radii": [None if r is None else r / metres for r in radii]}
     at, normal = touch_of(motion, pair)
     if isinstance(pair, PlacedContact):
+        one, two = (motion.velocity(pair.name, link) for link in pair.bodies)
         return {"kind": "rolling" if pair.rolling else "sliding", "position": at / metres, "normal": normal,
-                "slip": contact_slip(motion, pair) / fast, "pressure": contact_pressure(motion, pair)}  # fmt: skip
+                "slip": (one - two) / fast, "pressure": contact_pressure(motion, pair)}  # fmt: skip
     turn = motion.poses[pair.link]
     there = cam_at(pair, cam_angle(pair, turn.u))
     return {"lift": there.lift / (1.0 if pair.turns else metres), "contact": at / metres, "normal": normal,
@@ -60,12 +61,6 @@ def contact_normal(motion: Motion, contact: PlacedContact) -> Array:
     normal = arm / (radius if link == contact.bodies[0] else -radius)
     with np.errstate(invalid="ignore"):  # of positions that are none
         return np.asarray(normal / np.abs(normal))
-
-
-def contact_slip(motion: Motion, contact: PlacedContact) -> Array:
-    """The velocity of the first body's point at a contact minus that of the second's, complex, shape (n,) (m/s)."""
-    one, two = (motion.velocity(contact.name, link) for link in contact.bodies)
-    return np.asarray(one - two)
 
 
 def contact_pressure(motion: Motion, contact: PlacedContact) -> dict[str, Array]:

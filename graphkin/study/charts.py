@@ -309,9 +309,10 @@ def panel_of(
         if span[0] <= value <= span[1]
     )  # fmt: skip
     allowed, falling = _allowed(quantity, axis.scene)
+    title = lettered(axis.scene, quantity) + f" ({quantity.unit(axis.scene.units).written})"
     return Panel(
-        quantity, quantity_title(axis.scene, quantity), curve, dots, marked, span, allowed=allowed, falling=falling,
-        laid_over=laid_over, jumps=tuple(jumps),
+        quantity, title, curve, dots, marked, span, allowed=allowed, falling=falling, laid_over=laid_over,
+        jumps=tuple(jumps),
     )  # fmt: skip
 
 
@@ -337,11 +338,6 @@ def motion_panel(
 def lettered(scene: Mechanism, symbol: Symbol) -> RichText:
     """A quantity in the letters of the scene's convention."""
     return Notation(scene.question.sheet.convention).vector(symbol)
-
-
-def quantity_title(scene: Mechanism, quantity: Symbol) -> RichText:
-    """Symbol and unit of a quantity."""
-    return lettered(scene, quantity) + f" ({quantity.unit(scene.units).written})"
 
 
 def _allowed(quantity: Symbol, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:

@@ -92,7 +92,7 @@ class Equations:
         self.drivers: list[int] = []
         """The row of each driver."""
         row = 0
-        for pair in self._pairs():
+        for pair in (pair for element in structure.elements for pair in element.all_pairs):
             if pair.turns:
                 one, two = (structure.links[link].points[pair.point] for link in (pair.a, pair.b))
                 self.lines += [(row + k, pair.a, one, pair.b, two, self.frame, along, 0.0)
@@ -110,10 +110,6 @@ class Equations:
                 pair = structure.slide(driver.key)
                 self._along(row, pair, pair.guide.direction)
             row += 1
-
-    def _pairs(self) -> list[Pair]:
-        """Every pair that joins the links."""
-        return [pair for element in self.structure.elements for pair in element.all_pairs]
 
     def _along(self, row: int, pair: Pair, along: complex) -> None:
         """The line of a sliding pair along a direction of its guide."""

@@ -18,7 +18,7 @@ from graphkin.scene.tables import Measure
 from graphkin.search import SAME, Pieces, Turn, angles_between, extrapolated, places_between, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.algebra.pose import Array
-from graphkin.study.quantities import course_of, of_extrapolated, of_smooth, rates_of, smooth_course
+from graphkin.study.quantities import IN_LINE, course_of, of_smooth, rates_of, smooth_course
 
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
@@ -189,7 +189,9 @@ class CurveParameter:
         else:
             near = self.offset(high - STEPS_TO_END * steps if which else low + STEPS_TO_END * steps)
             values = course_of(curve.quantity, self.reach, self.reach.motion(near))
-        return of_extrapolated(curve.quantity, extrapolated(values.tolist(), steps.tolist())[0])
+        value, _ = extrapolated(values.tolist(), steps.tolist())
+        # an angle of at most 90 degrees is not negative, and 0 where it is rounding alone
+        return 0.0 if curve.quantity.entry.acute and value < IN_LINE else value
 
     def _beside_end(self, quantity: Symbol, which: int, parts: Array) -> Array:
         """A quantity at parts of the range beside its lower or upper end."""

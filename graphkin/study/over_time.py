@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,11 +36,6 @@ BESIDE = np.array([-1e-6, 1e-6, -1e-8, 1e-8])
 """Of the whole time: so long beside where the motion ends or begins within it a rate is seen to grow without bound."""
 
 
-class _Sampled(NamedTuple):
-    at: Array
-    motion: Motion
-
-
 @dataclass(frozen=True)
 class TimeAxis(Axis):
     """The time (s) over which drivers move by their laws."""
@@ -54,13 +49,14 @@ class TimeAxis(Axis):
     @cached_property
     def times(self) -> Array:
         """Moments that show the motion: even ones, seams of laws and just before them, and where it ends or begins."""
-        return np.unique(np.concatenate([self._sampled.at, self.stops]))
+        return np.unique(np.concatenate([self._sampled[0], self.stops]))
 
     @cached_property
-    def _sampled(self) -> _Sampled:
+    def _sampled(self) -> tuple[Array, Motion]:
+        """The moments known beforehand, and the motion there."""
         even = np.linspace(*self.ends, POINTS)
         at = np.unique(np.concatenate([even, self._seams, self._seams - self._before]))
-        return _Sampled(at, over_time(self.structure, at, extended=False))
+        return at, over_time(self.structure, at, extended=False)
 
     @cached_property
     def stops(self) -> list[float]:
@@ -83,7 +79,7 @@ class TimeAxis(Axis):
 
     @cached_property
     def motion(self) -> Motion:
-        return over_time(self.structure, self.times, extended=False) if self.stops else self._sampled.motion
+        return over_time(self.structure, self.times, extended=False) if self.stops else self._sampled[1]
 
     @property
     def ends(self) -> tuple[float, float]:

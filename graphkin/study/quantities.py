@@ -78,11 +78,6 @@ def of_smooth(quantity: Symbol, value: float) -> float:
     return math.sqrt(max(0.0, value)) if quantity.is_unsigned else value
 
 
-def of_extrapolated(quantity: Symbol, value: float) -> float:
-    """An extrapolated value: angles of at most 90 degrees are not negative, and 0 where they are rounding alone."""
-    return 0.0 if quantity.entry.acute and value < IN_LINE else value
-
-
 def _bound(quantity: Symbol, motion: Motion) -> Array:
     """The bound of a quantity's rounding error, by the links whose errors it has; 0 where it is unknown."""
     # none of a quantity of further links, as a transmission angle

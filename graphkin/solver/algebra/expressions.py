@@ -364,9 +364,7 @@ _WRITTEN = {
     "neg": "(-{})",
     "abs": "abs({})",
     "root": "sqrt(abs({}))",
-    "fmin": "fmin({}, {})",
-    "fmax": "fmax({}, {})",
-    "atan2": "atan2({}, {})",
+    **{name: name + "({}, {})" for name in ("fmin", "fmax", "atan2")},
 }
 _UFUNCS = {
     "add": np.add,
@@ -596,16 +594,14 @@ class Code:
                     body.append(f"absolute({sources[0]}, {out})")
                     sources = [out]
                 body.append(f"sqrt({sources[0]}, {out})")
-            elif line[0] in ("fmin", "fmax"):
-                body.append(f"{_UFUNCS[line[0]].__name__}({sources[0]}, {sources[1]}, out={out})")
             else:
                 body.append(f"{_UFUNCS[line[0]].__name__}({', '.join([*sources, out])})")
         head = [
             "def made(u, i, o, r):",
-            *_unpacked("u", len(wanted), "u"),
-            *_unpacked("i", len(self._input), "i"),
-            *_unpacked("o", len(self.asked), "o"),
-            *_unpacked("r", count, "r"),
+            *_unpacked("u", len(wanted)),
+            *_unpacked("i", len(self._input)),
+            *_unpacked("o", len(self.asked)),
+            *_unpacked("r", count),
         ]
         text = "\n    ".join([*head, *body, *copies, "return None"])
         return defined(text, {f.__name__: f for f in _UFUNCS.values()}), count
@@ -639,16 +635,13 @@ class Code:
             if n <= block:
                 made(invariants, inputs, out, work)
                 return
-            rows = list(work)
             for low in range(0, n, block):
-                high = low + block
-                if high > n:
-                    rows = list(work[:, : n - low])
-                made(invariants, [x[low:high] for x in inputs], [x[low:high] for x in out], rows)
+                some = slice(low, low + block)
+                made(invariants, [x[some] for x in inputs], [x[some] for x in out], work[:, : n - low])
 
 
-def _unpacked(letter: str, count: int, source: str) -> list[str]:
-    return [f"{', '.join(f'{letter}{k}' for k in range(count))}, = {source}"] if count else []
+def _unpacked(letter: str, count: int) -> list[str]:
+    return [f"{', '.join(f'{letter}{k}' for k in range(count))}, = {letter}"] if count else []
 
 
 def _tuple(texts: Iterable[str]) -> str:
