@@ -85,7 +85,7 @@ class Designed(Result):
     def _confirmed(self) -> Sequence[Confirmed]:
         from graphkin.drawing.figures.constructions import Confirmed
         from graphkin.solver import structure_of
-        from graphkin.solver.path.driver_range import range_of
+        from graphkin.solver.path.driver_range import extremes, range_of
 
         task, metres = self.given.task, self.given.units.metres
 
@@ -97,7 +97,7 @@ class Designed(Result):
             return [row(what, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
                         360.0) for what, asked, bar in self._directions(task)]  # fmt: skip
         name = {GuideBarTask: "stroke_5/0", SliderCrankTask: "stroke_3/0"}.get(type(task), "swing_3")
-        output = range_of(structure_of(mechanism_of(self.scene))).extremes(Symbol.parse(name))
+        output = extremes(range_of(structure_of(mechanism_of(self.scene))), Symbol.parse(name))
         if isinstance(task, LimitsTask):
             # which limit is which: by the turns that bring them together
             ends = math.degrees(output.low), math.degrees(output.high)

@@ -14,7 +14,7 @@ from graphkin.scene.pairs import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.search import resolve
 from graphkin.solver.algebra.pose import Array
-from graphkin.solver.path.driver_range import DriverRange, range_of
+from graphkin.solver.path.driver_range import DriverRange, extremes, range_of
 from graphkin.solver.touching import angle_between, contact_normal, contact_pressure
 from graphkin.structure import Structure
 
@@ -90,7 +90,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     place = points[centre] - points[axis]
     eccentricity = abs(place)
     swings = "/" not in of
-    ends = reach.extremes(Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
+    ends = extremes(reach, Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
     offset = None
     if not swings:
         guide = next(s.guide for s in scene.slidings if s.key == of)

@@ -26,6 +26,7 @@ from graphkin.solver.algebra.constraints import solve_all
 from graphkin.solver.algebra.pose import Array, known_where
 from graphkin.solver.motion import SLIGHT, Motion
 from graphkin.solver.quantities import part_along
+from graphkin.structure import kept_with
 from graphkin.words import Phrase, Wording
 
 
@@ -345,6 +346,7 @@ class Forces:
         return None
 
 
+@kept_with  # they are found together, and asked for one by one
 def forces_of(motion: Motion) -> Forces:
     """All forces of a scene that has masses or loads, at each position of its motion.
 
@@ -352,10 +354,7 @@ def forces_of(motion: Motion) -> Forces:
     ------
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
-    if "forces" not in motion.kept:  # they are found together, and asked for one by one
-        motion.kept["forces"] = Forces(motion, tuple(actions(motion)))
-    forces: Forces = motion.kept["forces"]
-    return forces
+    return Forces(motion, tuple(actions(motion)))
 
 
 # -- what acts on the links of a motion from outside: inertia forces, weights, loads, each where and while it acts -----

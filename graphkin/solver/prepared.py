@@ -25,7 +25,7 @@ from graphkin.solver.mobility import structure_of
 from graphkin.solver.path.dead_points import singular
 from graphkin.solver.path.driver_range import DriverRange, range_of
 from graphkin.solver.quantities import Posed, bound_of_symbol, formula_of_symbol
-from graphkin.structure import Structure
+from graphkin.structure import Structure, kept_with
 
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
 PRODUCTS = 4
@@ -193,11 +193,6 @@ class PreparedMechanism:
     # code
 
     @cached_property
-    def _sines(self) -> tuple[Real, ...]:
-        groups = self.dimensioned.program.groups
-        return tuple(groups[i].sine for i in sorted(groups))
-
-    @cached_property
     def _held(self) -> dict[Name, float]:
         """Units, rates of the drivers, and values of those but the first."""
         held: dict[Name, float] = {("per", s.measure.name): self._factor(s) for s in self.wanted}
@@ -227,14 +222,14 @@ class PreparedMechanism:
     @cached_property
     def examined(self) -> Code:
         """The code of the asked formulas, and after them of the sines of groups, for positions that are looked at."""
-        return Code(self.dimensioned.program.graph, (*self.asked, *self._sines), self.fixed)
+        program = self.dimensioned.program
+        return Code(program.graph, (*self.asked, *(group.sine for group in program.groups.values())), self.fixed)
 
     @cached_property
     def checks(self) -> Code:
         """The discriminants of its groups."""
         program = self.dimensioned.program
-        discriminants = [group.discriminant for _, group in sorted(program.groups.items())]
-        return Code(program.graph, discriminants, self.fixed, self.open)
+        return Code(program.graph, [group.discriminant for group in program.groups.values()], self.fixed, self.open)
 
     @cached_property
     def by_design(self) -> Code:
@@ -253,31 +248,25 @@ class PreparedMechanism:
         return dimensions(self.structure.scene)
 
     @cached_property
-    def _opened(self) -> dict[Hashable, PreparedMechanism]:
+    def kept(self) -> dict[Hashable, Any]:
+        """Results kept for further use: mechanisms with open numbers, and the numbers that are the same everywhere."""
         return {}
 
+    @kept_with
     def opened(self, names: frozenset[Name], moving: tuple[bool, ...]) -> PreparedMechanism:
         """The mechanism with some numbers of the formulas open, to be given for each design; made once.  ``moving``
         tells for each driver whether it has a second rate in some of them."""
-        if (names, moving) not in self._opened:
-            dimensioned = program_of(self.structure, moving, names)
-            asked = formulas(dimensioned.program, self.structure, self.wanted, self.units)
-            made = replace(self, dimensioned=dimensioned, asked=tuple(by_columns(asked).values()), open=names)
-            self._opened[names, moving] = made
-        return self._opened[names, moving]
+        dimensioned = program_of(self.structure, moving, names)
+        asked = formulas(dimensioned.program, self.structure, self.wanted, self.units)
+        return replace(self, dimensioned=dimensioned, asked=tuple(by_columns(asked).values()), open=names)
 
     def given(self, code: Code) -> list[float]:
         return self.dimensioned.params(code.params, self.fixed)
 
+    @kept_with
     def invariants(self, code: Code) -> list[Array] | None:
         """The numbers that are the same at all positions, and in all designs; computed once."""
-        if code not in self._invariants:
-            self._invariants[code] = code.invariants(self.given(code))
-        return self._invariants[code]
-
-    @cached_property
-    def _invariants(self) -> dict[Code, list[Array] | None]:
-        return {}
+        return code.invariants(self.given(code))
 
     # one position
 

@@ -27,9 +27,8 @@ from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver.algebra.pose import Array, Pose, aimed
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
-from graphkin.solver.path.driver_range import DriverRange, range_of
-from graphkin.solver.quantities import value_of_symbol
-from graphkin.structure import Dyad, LargerGroup, Structure, links_for, part_of
+from graphkin.solver.path.driver_range import DriverRange, extremes, range_of
+from graphkin.structure import Structure, kept_with, links_for, part_of
 from graphkin.words import Phrase, Wording, listed, say
 
 if TYPE_CHECKING:
@@ -45,10 +44,10 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
     CallError : a symbol names nothing here
     Unsolvable : a quantity of the whole turn without a whole turn, a force at a dead point
     """
-    posed, values = motion.posed, dict[Symbol, Value]()
+    values = dict[Symbol, Value]()
     for symbol, scope in {symbol: symbol.scope for symbol in symbols}.items():
         if scope == "turn":
-            values[symbol] = _of_turn(_range_here(motion), symbol)
+            values[symbol] = _of_turn(motion, symbol)
         elif scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
             values[symbol] = _of_forces_here(motion, symbol)
         elif scope == "cycle":
@@ -59,8 +58,6 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
 
                 exact = value_of(motion, symbol)[0]
             else:
-                exact = value_of_symbol(posed, symbol)[0]
-            if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
                 exact = motion.value(symbol)[0]
             values[symbol] = complex(exact) if np.iscomplexobj(exact) else float(exact)
     return values
@@ -81,17 +78,14 @@ def of_cycle(motion: Motion, symbol: Symbol) -> Array:
     return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
 
 
-def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
-    found = reach.extremes(symbol)
+def _of_turn(motion: Motion, symbol: Symbol) -> float:
+    """A quantity of the whole turn of the first driver, the others at the single position of a motion."""
+    values = {d.key: float(v) for d, v in zip(motion.scene.drivers, motion.values[0], strict=True)}
+    found = extremes(range_of(structure_of(motion.structure), values), symbol)
     return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
 
 
-def _range_here(motion: Motion) -> DriverRange:
-    """The range of the first driver, the others at the single position of a motion."""
-    values = {d.key: float(v) for d, v in zip(motion.scene.drivers, motion.values[0], strict=True)}
-    return range_of(structure_of(motion.structure), values)
-
-
+@kept_with
 def forces_here(motion: Motion) -> Forces:
     """The forces at the single position of a motion.
 
@@ -99,12 +93,10 @@ def forces_here(motion: Motion) -> Forces:
     ------
     Unsolvable : "dead point": the balance does no work
     """
-    if "forces here" in motion.kept:
-        known: Forces = motion.kept["forces here"]
-        return known
     from graphkin.solver.forces import forces_of, without_line
 
-    forces = forces_of(_of_cams(motion))
+    whole = motion.scene.whole  # the mechanism with cams itself, where another replaces it; the links move alike
+    forces = forces_of(motion if whole is motion.scene else replace(motion, structure=structure_of(whole)))
     for spring, where in without_line(forces.motion).items():
         if where[0]:
             raise Unsolvable("dead point", Problem(spring.where, "its two points coincide in this position so",
@@ -114,7 +106,6 @@ def forces_here(motion: Motion) -> Forces:
         raise Unsolvable("dead point", Problem(Phrase("driver of driver", driver=drivers),
                                                "the balance does no work in this position of nothing",
                                                "move the driver or ask for the motion alone"))
-    motion.kept["forces here"] = forces
     return forces
 
 
@@ -174,12 +165,6 @@ def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:
         return _arm(forces.motion.growing, forces, Symbol.parse(symbol.name))
     known = forces.value(symbol)
     return math.nan if known is None else complex(known[0]) if symbol.is_vector else float(known[0])
-
-
-def _of_cams(motion: Motion) -> Motion:
-    """The motion of the mechanism with cams itself, where another replaces it; the links move alike."""
-    whole = motion.scene.whole
-    return motion if whole is motion.scene else replace(motion, structure=structure_of(whole))
 
 
 def as_drawn(motion: Motion, structure: Structure) -> Motion:
@@ -272,6 +257,7 @@ NO_WORK = 1e-12
 """Of the work done and taken in a cycle: a sum that is less is nothing but rounding."""
 
 
+@kept_with
 def flywheel_of(reach: DriverRange) -> FlywheelStudy:
     """The flywheel that a scene asks for.
 
@@ -279,13 +265,6 @@ def flywheel_of(reach: DriverRange) -> FlywheelStudy:
     ------
     Unsolvable : the driver makes no whole turn, the link does not turn on and on, or the mechanism is at rest
     """
-    if "flywheel" not in reach.kept:
-        reach.kept["flywheel"] = _found(reach)
-    study: FlywheelStudy = reach.kept["flywheel"]
-    return study
-
-
-def _found(reach: DriverRange) -> FlywheelStudy:
     wanted = reach.scene.loading.flywheel
     assert wanted is not None
     if not reach.driver.turns or not reach.full or len(reach.scene.drivers) > 1:
@@ -454,7 +433,10 @@ def head(motion: Motion) -> dict[str, Json]:
         "units": {"length": scene.units.length, **speed, "time": "s", "angle": "rad", **force},
         "mobility": motion.structure.mobility.value,
         **({"passed": passed} if passed else {}),
-        "groups": [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)],
+        "groups": [
+            {"class": group.order, "kind": group.kind, "links": list(group.links), "assembly": say(words)}
+            for group, words in zip(motion.structure.groups, motion.assembly, strict=True)
+        ],
     }
 
 
@@ -566,7 +548,3 @@ def _of_bounds(motion: Motion, some: slice) -> Columns:
     why = "the worst case of rounding, multiplied along so many groups, says nothing"
     found["why"] = [why if None in row else ABSENT for row in zip(*found.values(), strict=True)]
     return found
-
-
-def _group(group: Dyad | LargerGroup, words: Phrase) -> dict[str, Json]:
-    return {"class": group.order, "kind": group.kind, "links": list(group.links), "assembly": say(words)}

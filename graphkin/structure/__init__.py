@@ -18,6 +18,7 @@ from graphkin.structure.model import (
     by_drivers_alone,
     driver_pair,
     greatest_before,
+    kept_with,
     leading,
     links_for,
     named_with_contact,
@@ -31,7 +32,7 @@ from graphkin.structure.rolling import meshes_of, unrolled
 __all__ = [
     "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup",
     "Mobility", "Mover", "RollingRelation", "Structure", "analyse", "by_drivers_alone",
-    "cams_replaced", "driver_pair", "greatest_before", "leading", "links_for", "meshes_of", "mobility_of",
+    "cams_replaced", "driver_pair", "greatest_before", "kept_with", "leading", "links_for", "meshes_of", "mobility_of",
     "named_with_contact", "needed", "part_of", "pick", "pin_in_guide", "pins_on_circles", "regrouped",
     "replacement_told", "started", "unrolled", "without",
 ]  # fmt: skip

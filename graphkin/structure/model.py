@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property
-from typing import Any, ClassVar, Literal, TypeAlias, TypeVar
+from functools import cached_property, wraps
+from typing import Any, ClassVar, Concatenate, Literal, ParamSpec, Protocol, TypeAlias, TypeVar
 
 from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import added_up
@@ -547,19 +547,41 @@ def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
     )
 
 
+class Keeping(Protocol):
+    """What results are kept with: a structure, a motion, a range."""
+
+    @property
+    def kept(self) -> dict[Hashable, Any]: ...
+
+
+Keeper = TypeVar("Keeper", bound=Keeping)
+Others = ParamSpec("Others")
+Result = TypeVar("Result")
+
+
+def kept_with(
+    function: Callable[Concatenate[Keeper, Others], Result]
+) -> Callable[Concatenate[Keeper, Others], Result]:
+    """A function whose results are made once, and kept with its first argument by the others."""
+
+    @wraps(function)
+    def known(keeper: Keeper, /, *args: Others.args, **named: Others.kwargs) -> Result:
+        key = function.__qualname__, args, *named.items()
+        if key not in keeper.kept:
+            keeper.kept[key] = function(keeper, *args, **named)
+        result: Result = keeper.kept[key]
+        return result
+
+    return known
+
+
+@kept_with
 def links_for(structure: Structure, symbol: Symbol) -> frozenset[str]:
     """The links that a quantity names, and the links that hold its points.  Raises CallError where there are none."""
-    known: dict[Symbol, frozenset[str]] = structure.kept.setdefault("links for", {})
-    if symbol not in known:
-        known[symbol] = frozenset(_links_for(structure, symbol))
-    return known[symbol]
-
-
-def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
-    """The links that a quantity names, and those that place its points: as `links_for`, each time anew."""
     if symbol.link:
         # of a pin in a slot the block that stands for it
-        return {name for name in (symbol.link, symbol.other, symbol.pair) if name in structure.links} or {symbol.link}
+        named = {name for name in (symbol.link, symbol.other, symbol.pair) if name in structure.links}
+        return frozenset(named or {symbol.link})
     links: set[str] = set()
     for ref in (symbol.of, symbol.to):
         if ref is None:
@@ -577,4 +599,4 @@ def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
         if not ref.link or ref.point not in structure.links[ref.link].points:
             # the pin itself must be placed too: by the first link of the order of solution that has it
             links.add(min(holders, key=lambda n: structure.place_of.get(n, -1)))
-    return links
+    return frozenset(links)

@@ -19,7 +19,7 @@ import numpy as np
 from graphkin.solver.algebra.constraints import Constraints, Layout, Parts, led_relation, product, solve_all
 from graphkin.solver.algebra.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
 from graphkin.solver.drivers import conversion_error, law_doubts, meant, meant_angle
-from graphkin.structure import Structure
+from graphkin.structure import Structure, kept_with
 
 FEW = 4
 """The roundings of a sum of products."""
@@ -72,7 +72,9 @@ def error_bounds(
         sizes = _sizes(matrices, _reached(structure, system.layout))
         terms = sizes @ np.moveaxis(rows, 0, 2)
         error = terms[0][..., 0]
-        wild, grown = _growth(sizes[0], _changes(system, parts, error), error, _hanging(structure, names))
+        # 1 where a coordinate may pass an error on to another, else 0, shape (columns, columns)
+        hanging = np.kron(_depending(structure, names), np.ones((3, 3)))
+        wild, grown = _growth(sizes[0], _changes(system, parts, error), error, hanging)
         errors = error, terms[0][..., 1] + terms[1][..., 0], terms[0][..., 2] + 2 * terms[1][..., 1] + terms[2][..., 0]
         found: list[Array] = []
         for order, error in enumerate(errors):
@@ -223,39 +225,26 @@ def _sizes(matrices: Sequence[Array], reached: Array) -> Array:
     return np.asarray(np.nan_to_num(np.abs(rates), nan=VAST, posinf=VAST))
 
 
-def _before(structure: Structure) -> Mapping[str, frozenset[str]]:
-    """For each link the links on which it depends, with itself, its group and the frame: near a dead point of a group
-    the links before it stay certain.  A rolling link may depend on later links."""
-    if "before" not in structure.kept:
-        frame = structure.scene.frame.name
-        found = {frame: frozenset((frame,))}
-        for element in structure.elements:
-            ends = {*element.members, *(link for end in element.outside for link in found.get(end, ()))}
-            found |= dict.fromkeys(element.members, frozenset(ends))
-        structure.kept["before"] = found
-    before: Mapping[str, frozenset[str]] = structure.kept["before"]
-    return before
+@kept_with
+def _depending(structure: Structure, names: tuple[str, ...]) -> Array:
+    """Whether each link depends on each, as on itself and on its group, bool, shape (links, links): near a dead point
+    of a group the links before it stay certain.  A rolling link may depend on later links."""
+    before = {structure.scene.frame.name: frozenset[str]()}
+    for element in structure.elements:
+        ends = {*element.members, *(link for end in element.outside for link in before.get(end, ()))}
+        before |= dict.fromkeys(element.members, frozenset(ends))
+    return np.array([[other in before[name] for other in names] for name in names])
 
 
+@kept_with
 def _reached(structure: Structure, layout: Layout) -> Array:
     """The entries of the inverse that may differ from zero: only constraints between links on which a link depends move
     it, shape (columns, rows)."""
-    if "reached" not in structure.kept:
-        before, names = _before(structure), layout.names[: layout.members]
-        taking = layout.constant != 0
-        taking.flat[layout.entries.entries] = True
-        taking = taking.reshape(layout.rows, -1, 3).any(axis=2)
-        away = np.array([[other not in before[name] for other in names] for name in names])
-        structure.kept["reached"] = np.repeat(~(away.astype(int) @ taking.T.astype(int)).astype(bool), 3, axis=0)
-    reached: Array = structure.kept["reached"]
-    return reached
-
-
-def _hanging(structure: Structure, names: Sequence[str]) -> Array:
-    """1 where a coordinate may pass an error on to another, else 0, shape (columns, columns)."""
-    before = _before(structure)
-    links = np.array([[float(other in before[name]) for other in names] for name in names])
-    return np.repeat(np.repeat(links, 3, axis=0), 3, axis=1)
+    taking = layout.constant != 0
+    taking.flat[layout.entries.entries] = True
+    taking = taking.reshape(layout.rows, -1, 3).any(axis=2)
+    away = ~_depending(structure, layout.names[: layout.members])
+    return np.repeat(~(away.astype(int) @ taking.T.astype(int)).astype(bool), 3, axis=0)
 
 
 def _changes(system: Constraints, parts: Parts, error: Array) -> Array:
@@ -336,6 +325,7 @@ def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_err
     return [error + doubt for error, doubt in zip(found, by_laws, strict=True)]
 
 
+@kept_with
 def _written(structure: Structure, layout: Layout) -> Sequence[Array]:
     """The errors of the file's numbers in 16 digits and in 50: of the places of each joint, shape (2, 2, joints), of
     the direction of each line and of each turn, shape (2, numbers)."""
@@ -344,14 +334,11 @@ def _written(structure: Structure, layout: Layout) -> Sequence[Array]:
         known = {number: conversion_error(*number) for number in {*numbers}}
         return np.array([known[number] for number in numbers]).reshape(-1, 2).T
 
-    if "written" not in structure.kept:
-        turning = [(0j, False) if p.turns else (p.guide.direction, True) for p in layout.line_pairs]
-        guides = errors((1 + 0j, True) if p is None else (p.guide.direction, True) for p in layout.turn_pairs)
-        blocks = errors((1 + 0j, True) if p is None else (p.turn, True) for p in layout.turn_pairs)
-        places = errors((complex(z), False) for z in layout.places.flat).reshape(2, *layout.places.shape)
-        structure.kept["written"] = places, errors(turning), guides + blocks
-    written: Sequence[Array] = structure.kept["written"]
-    return written
+    turning = [(0j, False) if p.turns else (p.guide.direction, True) for p in layout.line_pairs]
+    guides = errors((1 + 0j, True) if p is None else (p.guide.direction, True) for p in layout.turn_pairs)
+    blocks = errors((1 + 0j, True) if p is None else (p.turn, True) for p in layout.turn_pairs)
+    places = errors((complex(z), False) for z in layout.places.flat).reshape(2, *layout.places.shape)
+    return places, errors(turning), guides + blocks
 
 
 def _row_errors(

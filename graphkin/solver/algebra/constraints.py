@@ -23,7 +23,7 @@ import numpy as np
 
 from graphkin.scene.pairs import Pair
 from graphkin.solver.algebra.pose import FIELDS, Array, Drive, Pose, rest, together, turned
-from graphkin.structure import Driven, LargerGroup, RollingRelation, Structure
+from graphkin.structure import Driven, LargerGroup, RollingRelation, Structure, kept_with
 from graphkin.structure.model import Coordinate
 
 Jet = list[Array]
@@ -193,6 +193,17 @@ def led_relation(element: Driven) -> RollingRelation:
     return RollingRelation(f"{element.link} led", terms, rolled.links if rolled else (element.link, *pair.links))
 
 
+@kept_with
+def _all_together(structure: Structure) -> LargerGroup:
+    """All links as a group; for a cam's follower its own part alone."""
+    pairs, rolling = list[Pair](), list[RollingRelation]()
+    for e in structure.elements:
+        pairs += e.all_pairs
+        rolling += [led_relation(e)] if isinstance(e, Driven) and not e.drivers else e.rolling
+    members = tuple(name for name in structure.links if name != structure.scene.frame.name)
+    return LargerGroup(members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling))
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Constraints:
     """The constraints of a group at n positions of the links on which it depends, or at one position for n places.
@@ -230,18 +241,7 @@ class Constraints:
     @classmethod
     def whole(cls, structure: Structure, drive: Drive) -> Constraints:
         """The constraints of all links together; for a cam's follower its own part alone."""
-        frame = structure.scene.frame.name
-        if "whole" not in structure.kept:
-            pairs: list[Pair] = []
-            rolling: list[RollingRelation] = []
-            for e in structure.elements:
-                pairs += e.all_pairs
-                rolling += [led_relation(e)] if isinstance(e, Driven) and not e.drivers else e.rolling
-            members = tuple(name for name in structure.links if name != frame)
-            structure.kept["whole"] = LargerGroup(
-                members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling)
-            )
-        return cls(structure, structure.kept["whole"], {frame: rest()}, drive)
+        return cls(structure, _all_together(structure), {structure.scene.frame.name: rest()}, drive)
 
     def part(self, which: Array) -> Constraints:
         """The constraints at some of the positions."""

@@ -32,15 +32,6 @@ CLEAR = 0.05
 """Where the sines of all groups, multiplied, are greater than this no rate is rough."""
 
 
-def known_exactly(drivers: Sequence[Driver], values: Array) -> Array:
-    """Positions whose driver values, shape (n, drivers), are known to fifty digits, shape (n,)."""
-    found = np.zeros(len(values), dtype=bool)
-    for j, driver in enumerate(drivers):
-        if driver.exact:
-            found |= values[:, j] == driver.values[0]
-    return found
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class ExtendedPrecision:
     """Some formulas of a mechanism in fifty digits, at positions of its drivers.
@@ -286,8 +277,7 @@ class _Run:
     def state(self, upto: int, whole: bool = True) -> State:
         """The mechanism up to an element, or of it the last element alone."""
         self.follow(upto)
-        elements, drivers = self.structure.elements[:upto], self.structure.drivers
-        program = self.dimensioned.program
+        elements, program = self.structure.elements[:upto], self.dimensioned.program
         first = 0 if whole else upto - 1
         names = [n for e in elements[first:] for n in e.members]
         dyads = [i for i in self.structure.dyads if first <= i < upto]
@@ -306,10 +296,11 @@ class _Run:
                 *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr, arg-type]
                 *(given.get(p, _LOST) for p in DyadSolution._fields[2:]),
             )
-        exact = np.zeros(self.n, dtype=bool)
+        exact = np.zeros(self.n, dtype=bool)  # whether the drivers' values are known to fifty digits
         explicit = all(element.explicit for element in elements)
-        if names and explicit:
-            exact = known_exactly(drivers, self.drive.value)
+        for j, driver in enumerate(self.structure.drivers if names and explicit else ()):
+            if driver.exact:
+                exact |= self.drive.value[:, j] == driver.values[0]
         sharp = np.full(self.n, 0.0 if self.larger_groups else 1.0)
         for i in dyads:
             sharp = sharp * np.abs(groups[i].sine)  # type: ignore[union-attr]
@@ -356,10 +347,8 @@ class _Run:
         program, mode = self.dimensioned.program, np.broadcast_to(self.modes[i], (self.n, 2 * len(rolled.factors)))
         asked: list[Real | Vec] = []
         for (kind, name), _ in rolled.factors:
-            slide = None if kind == "angle" else self.structure.slide(name)
-            guide = None if slide is None else program.guide(slide)
-            asked.append(program.poses[name].u if slide is None or guide is None
-                         else ((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real)  # fmt: skip
+            turning = kind == "angle"
+            asked.append(program.poses[name].u if turning else program.posed.travel(self.structure.slide(name)))
         value = np.full(self.n, rolled.start)
         wide = np.abs(value) + 1.0 * rolled.turns
         for k, (found, (_, factor)) in enumerate(zip(self._values(("rolled", i), asked), rolled.factors, strict=True)):

@@ -16,7 +16,8 @@ from graphkin.solver.algebra.dyads import DyadSolution, Joints, PoseFormula, sol
 from graphkin.solver.algebra.expressions import Code, ExpressionGraph, Name, Real, Vec, components
 from graphkin.solver.algebra.pose import GIVEN, Pose
 from graphkin.solver.drivers import meant, meant_direction
-from graphkin.structure import Body, Driven, Dyad, LargerGroup, RollingRelation, Structure
+from graphkin.solver.quantities import Posed
+from graphkin.structure import Body, Driven, Dyad, LargerGroup, RollingRelation, Structure, kept_with
 from graphkin.structure.model import Coordinate
 
 SPECIAL = (0.0, 1.0, -1.0)
@@ -27,7 +28,7 @@ class Program:
     """The formulas of all mechanisms of one form.
 
     poses : each link by its name, fields are formulas
-    groups, joints : the solution of each dyad, and its joint frames, by its index among the elements
+    groups : the solution of each dyad, by its index among the elements
     """
 
     def __init__(self, structure: Structure, moving: Sequence[bool], open_: Container[Name] = ()) -> None:
@@ -36,9 +37,9 @@ class Program:
         self._moving = moving
         self._open = open_
         self._numbers = _numbers(structure)
-        self.joints: dict[int, Joints[Vec, Real]] = {}
         self.poses: dict[str, PoseFormula] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
         self.groups: dict[int, DyadSolution[Vec, Real]] = {}
+        self.posed = Posed(structure, self.poses, structure.slides, self.number)
         for i, element in enumerate(structure.elements):
             self._add(i, element)
         self._codes: dict[Hashable, Code] = {}
@@ -69,10 +70,6 @@ class Program:
             return self.at_rest(0j, self.number("turn", pair.key).conjugate())
         return self.at_rest(self.number("through", pair.key), self.number("direction", pair.key))
 
-    def guide(self, slide: Pair) -> PoseFormula:
-        """The guide of a sliding pair in the world."""
-        return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
-
     def _rates(self, driver: Driver) -> tuple[Real, Real]:
         k = self.structure.drivers.index(driver)
         second = self.graph.param(("second", k)) if self._moving[k] else self.graph.const(0)
@@ -101,7 +98,7 @@ class Program:
         rate = second = self.graph.const(0)
         for coordinate, _ in rolled.factors:
             one, two = self.rates_of(coordinate)
-            factor = self.ratio(rolled, coordinate)
+            factor = self.number("ratio", rolled.key, *coordinate).real
             rate, second = rate + factor * one, second + factor * two
         if rolled.turns:
             stands: Real | Vec = Vec(*(self.graph.input(("rolled", rolled.key, part)) for part in ("cos", "sin")))
@@ -109,36 +106,28 @@ class Program:
             stands = self.graph.input(("rolled", rolled.key, "travel"))
         return stands, rate, second
 
-    def ratio(self, rolled: RollingRelation, coordinate: Coordinate) -> Real:
-        """The ratio of a rolling link's motion to one of the angles and travels that it follows."""
-        return self.number("ratio", rolled.key, *coordinate).real
-
     def rates_of(self, coordinate: Coordinate) -> tuple[Real, Real]:
         """Rate and second rate of an angle or a travel."""
         kind, name = coordinate
         if kind == "angle":
             return self.poses[name].omega, self.poses[name].alpha
-        slide = self.structure.slide(name)
-        seen = self.guide(slide).inverse().of(self.poses[slide.a])
+        seen = self.posed.sliding(self.structure.slide(name))
         return seen.v.real, seen.a.real
 
     # elements
 
     def _add(self, i: int, element: Driven | Dyad | LargerGroup) -> None:
         if isinstance(element, Driven):
-            self.poses[element.link] = driven(self, element, self.poses)
+            self.poses[element.link] = self._driven(element)
         elif isinstance(element, LargerGroup):
             for name in element.members:
                 self.poses[name] = self._placed(name)
         else:
-            rest = self.at_rest(0j, 1 + 0j)
-            shapes = body_shape(self, element.first, rest), body_shape(self, element.second, rest)
-            joints = dyad_joints(self, element, shapes, self.poses, self.graph.param(("size",)))
-            self.joints[i] = joints
-            solved = solve_dyad(element.kind, joints, self.graph.input(("sign", i)))
-            self.groups[i] = solved
-            self.poses.update(members(shapes[0], solved.first))
-            self.poses.update(members(shapes[1], solved.second))
+            first, second = map(self._shape, element.bodies)
+            joints = self._joints(element, first, second)
+            solved = self.groups[i] = solve_dyad(element.kind, joints, self.graph.input(("sign", i)))
+            for base, shape in ((solved.first, first), (solved.second, second)):
+                self.poses |= {link: base.of(pose) for link, pose in shape.items()}
 
     def _placed(self, name: str) -> PoseFormula:
         """A link of a larger group, whose pose is given."""
@@ -149,6 +138,69 @@ class Program:
             return Vec(real(part), real(part, "y"))
 
         return Pose(vec("z"), vec("u"), vec("v"), real("omega"), vec("a"), real("alpha"))
+
+    def _driven(self, element: Driven) -> PoseFormula:
+        """The pose of a link that a driver or a cam moves from known links: crank, driven slider, follower."""
+        pair, link = element.pair, element.link
+        base = pair.b if pair.a == link else pair.a
+        mine, theirs = self.rest(pair, link), self.rest(pair, base)
+        at, sense = self.poses[base].fixed(theirs.z, theirs.u), 1.0 if pair.a == link else -1.0
+        stands: Real | Vec
+        mover = element.driver
+        if isinstance(mover, LawCam):
+            stands, slope, by_angle = self.lift(mover)
+            cam, sense = self.poses[mover.link], 1.0
+            rate, second = slope * cam.omega, by_angle * (cam.omega * cam.omega) + slope * cam.alpha
+        elif isinstance(mover, RollingRelation):
+            stands, rate, second = self.rolled(mover)
+        elif mover.turns:
+            given = self.turn(mover)
+            forward = mover.link == link
+            to = mover.relative_to if forward else mover.link
+            from_ = self.poses[self.structure.scene.frame.name if element.ahead else to]
+            for step, forth in element.ahead:
+                turn = self.turn(step) if isinstance(step, Driver) else (
+                    self.rest(step, step.b).of(self.rest(step, step.a).inverse()))
+                from_ = from_.of(turn if forth else turn.inverse())
+            seen = from_.of(given if forward else given.inverse())
+            stands, rate, second = seen.u, seen.omega, seen.alpha
+        else:
+            stands, rate, second = self.travel(mover)
+        if isinstance(stands, Vec):
+            return at.pinned(mine, stands, rate, second)
+        return at.along(stands * sense, rate * sense, second * sense).of(mine.inverse())
+
+    def _shape(self, body: Body) -> dict[str, PoseFormula]:
+        """Every link of a body in the axes of its base."""
+        shape = {body.links[0]: self.at_rest(0j, 1 + 0j)}
+        for joint in body.joints:
+            placed = shape[joint.a].of(self.rest(joint.pair, joint.a))
+            if joint.driver.turns:
+                given = self.turn(joint.driver)
+                placed = placed.of(given if joint.sign > 0 else given.inverse())
+            else:
+                sense = 1.0 if joint.b == joint.pair.a else -1.0
+                placed = placed.along(*(rate * sense for rate in self.travel(joint.driver)))
+            shape[joint.b] = placed.of(self.rest(joint.pair, joint.b).inverse())
+        return shape
+
+    def _joints(
+        self, dyad: Dyad, first: Mapping[str, PoseFormula], second: Mapping[str, PoseFormula]
+    ) -> Joints[Vec, Real]:
+        """The six joint frames of a dyad, from the shapes of its bodies."""
+
+        def frame(pair: Pair, poses: Mapping[str, PoseFormula]) -> PoseFormula:
+            """A pair on the one of its links that has a pose."""
+            link = pair.a if pair.a in poses else pair.b
+            at = self.rest(pair, link)
+            return poses[link].fixed(at.z, at.u)
+
+        one, two = dyad.outer_first, dyad.outer_second
+        return Joints(
+            frame(one, self.poses), frame(one, first), frame(dyad.inner, first),
+            frame(two, self.poses), frame(two, second), frame(dyad.inner, second),
+            1.0 if two.a in second else -1.0, self.graph.param(("size",)),
+        )  # fmt: skip
 
     # code
 
@@ -256,6 +308,7 @@ _PROGRAMS: dict[Hashable, Program] = {}
 MOST = 200
 
 
+@kept_with
 def program_of(
     structure: Structure, moving: tuple[bool, ...], open_: frozenset[Name] = frozenset()
 ) -> DimensionedProgram:
@@ -266,104 +319,10 @@ def program_of(
     moving : for each driver whether it has a second rate
     open_ : numbers by name that stay open even if they are 0, 1 or -1
     """
-    key = "program", moving, open_
-    if key in structure.kept:
-        known: DimensionedProgram = structure.kept[key]
-        return known
     form = _form(structure, open_), moving
     program = _PROGRAMS.pop(form, None) or Program(structure, moving, open_)
     _PROGRAMS[form] = program
     while len(_PROGRAMS) > MOST:
         with suppress(RuntimeError, StopIteration):  # another thread may be at the same
             _PROGRAMS.pop(next(iter(_PROGRAMS)), None)
-    dimensioned = structure.kept[key] = DimensionedProgram(program, structure)
-    return dimensioned
-
-
-def driven(program: Program, element: Driven, poses: Mapping[str, PoseFormula]) -> PoseFormula:
-    """The pose of a link that a driver or a cam moves from known links: crank, driven slider, follower."""
-    pair, link = element.pair, element.link
-    base = pair.b if pair.a == link else pair.a
-    mine, theirs = program.rest(pair, link), program.rest(pair, base)
-    at = poses[base].fixed(theirs.z, theirs.u)
-    if element.lifted is not None:
-        stands, slope, by_angle = program.lift(element.lifted)
-        cam = poses[element.lifted.link]
-        rate, second = slope * cam.omega, by_angle * (cam.omega * cam.omega) + slope * cam.alpha
-        if isinstance(stands, Vec):
-            return at.pinned(mine, stands, rate, second)
-        return at.along(stands, rate, second).of(mine.inverse())
-    if element.rolled is not None:
-        stands, rate, second = program.rolled(element.rolled)
-        if isinstance(stands, Vec):
-            return at.pinned(mine, stands, rate, second)
-        sense = 1.0 if pair.a == link else -1.0
-        return at.along(stands * sense, rate * sense, second * sense).of(mine.inverse())
-    (driver,) = element.drivers
-    if driver.turns:
-        given = program.turn(driver)
-        forward = driver.link == link
-        to = driver.relative_to if forward else driver.link
-        from_ = poses[program.structure.scene.frame.name if element.ahead else to]
-        for step, forth in element.ahead:
-            turn = program.turn(step) if isinstance(step, Driver) else (
-                program.rest(step, step.b).of(program.rest(step, step.a).inverse()))
-            from_ = from_.of(turn if forth else turn.inverse())
-        seen = from_.of(given if forward else given.inverse())
-        return at.pinned(mine, seen.u, seen.omega, seen.alpha)
-    travel, rate, second = program.travel(driver)
-    if pair.a == link:
-        return at.along(travel, rate, second).of(mine.inverse())
-    return at.along(-travel, -rate, -second).of(mine.inverse())
-
-
-def body_shape(program: Program, body: Body, rest: PoseFormula) -> dict[str, PoseFormula]:
-    """Every link of a body in the axes of its base; ``rest`` are axes that do not move."""
-    shape = {body.links[0]: rest}
-    for joint in body.joints:
-        placed = shape[joint.a].of(program.rest(joint.pair, joint.a))
-        if joint.driver.turns:
-            given = program.turn(joint.driver)
-            placed = placed.of(given if joint.sign > 0 else given.inverse())
-        else:
-            travel, rate, second = program.travel(joint.driver)
-            if joint.b != joint.pair.a:
-                travel, rate, second = -travel, -rate, -second
-            placed = placed.along(travel, rate, second)
-        shape[joint.b] = placed.of(program.rest(joint.pair, joint.b).inverse())
-    return shape
-
-
-def dyad_joints(
-    program: Program, dyad: Dyad, shapes: tuple[dict[str, PoseFormula], dict[str, PoseFormula]],
-    poses: Mapping[str, PoseFormula], size: Real,
-) -> Joints[Vec, Real]:  # fmt: skip
-    """The six joint frames of a dyad."""
-
-    def inside(pair: Pair, shape: Mapping[str, PoseFormula]) -> tuple[PoseFormula, str]:
-        link = pair.a if pair.a in shape else pair.b
-        at = program.rest(pair, link)
-        return shape[link].fixed(at.z, at.u), link
-
-    def known(pair: Pair, link: str) -> PoseFormula:
-        base = pair.b if link == pair.a else pair.a
-        at = program.rest(pair, base)
-        return poses[base].fixed(at.z, at.u)
-
-    outer1, link1 = inside(dyad.outer_first, shapes[0])
-    outer2, link2 = inside(dyad.outer_second, shapes[1])
-    return Joints(
-        known(dyad.outer_first, link1),
-        outer1,
-        inside(dyad.inner, shapes[0])[0],
-        known(dyad.outer_second, link2),
-        outer2,
-        inside(dyad.inner, shapes[1])[0],
-        1.0 if link2 == dyad.outer_second.a else -1.0,
-        size,
-    )
-
-
-def members(shape: Mapping[str, PoseFormula], base: PoseFormula) -> dict[str, PoseFormula]:
-    """The links of a body in the world, from the base's pose."""
-    return {link: base.of(pose) for link, pose in shape.items()}
+    return DimensionedProgram(program, structure)

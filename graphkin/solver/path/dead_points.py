@@ -63,20 +63,17 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
             raise Unsolvable("dead point", Problem(element.named, Phrase("dead points are found where nothing rolls")))
         where = Phrase("cams named", cams=listed([e.lifted.link for e in structure.driven if e.lifted]))
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))
-    turning = structure.scene.drivers[0].turns
-    wide = (1 + MARGIN) * structure.scene.drivers[0].span(structure.scene.size) * (math.pi if turning else FAR)
+    driver = structure.scene.drivers[0]
+    wide = (1 + MARGIN) * driver.span(structure.scene.size) * (math.pi if driver.turns else FAR)
     path, dyads = Path.of_driver(structure, np.zeros(1)), [*structure.dyads][:MOST_GROUPS]
     found: list[DeadPoint] = []
     for k, i in enumerate(dyads):
         own = _of_group(path, dyads[:k], i, near - wide, near + wide, {})
         for point in sorted(own, key=lambda p: [-sign for sign in p.signs.values()]):
-            if not any(p.element == i and p.signs == point.signs and _same(structure, p, point) for p in found):
+            alike = (p for p in found if p.element == i and p.signs == point.signs)
+            if all(abs(driver.wrapped(float(p.value - point.value))) >= SAME for p in alike):
                 found.append(point)
     return found
-
-
-def _same(structure: Structure, one: DeadPoint, two: DeadPoint) -> bool:
-    return abs(structure.scene.drivers[0].wrapped(float(one.value - two.value))) < SAME
 
 
 def _of_group(

@@ -30,7 +30,7 @@ from graphkin.solver.path.assemblies import choose_modes
 from graphkin.solver.path.dead_points import singular, without_singular
 from graphkin.solver.redundant import redundant_poses
 from graphkin.solver.sentences import assembly_words
-from graphkin.structure import Structure
+from graphkin.structure import Structure, kept_with
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase, Wording
@@ -298,15 +298,8 @@ class DriverRange:
 
     def stroke(self, pair: str) -> tuple[float, float]:
         """Least and greatest travel of a sliding pair over a turn (m).  Raises Unsolvable where there is no turn."""
-        turn = self.extremes(Symbol.parse(f"stroke_{pair}"))
+        turn = extremes(self, Symbol.parse(f"stroke_{pair}"))
         return turn.low, turn.high
-
-    def extremes(self, symbol: Symbol) -> Extremes:
-        """The extremes of a sliding pair or a link over a turn, found once; see `extremes`."""
-        if symbol not in self.kept:
-            self.kept[symbol] = extremes(self, symbol)
-        found: Extremes = self.kept[symbol]
-        return found
 
     def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid | GivenValues:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of a table of n: a turn from the
@@ -627,6 +620,7 @@ def ratio_of(lag: float) -> float:
     return (math.pi + lag) / (math.pi - lag)
 
 
+@kept_with
 def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     """The extremes of a symbol's sliding pair or link over one turn of the driver.
 

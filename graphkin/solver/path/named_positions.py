@@ -15,7 +15,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.path.driver_range import DriverRange, range_of
+from graphkin.solver.path.driver_range import DriverRange, extremes, range_of
 from graphkin.words import Phrase
 
 TRIES = 24
@@ -56,7 +56,7 @@ def _value(reach: DriverRange, place: float | StrokeStart | None) -> float:
     if not isinstance(place, StrokeStart):
         return place
     sliding, guiding = place.stroke.split("/")
-    limits = reach.extremes(Symbol("stroke", link=sliding, other=guiding))
+    limits = extremes(reach, Symbol("stroke", link=sliding, other=guiding))
     ends = (limits.low_offset, limits.low), (limits.high_offset, limits.high)
     (begin, start), (end, _) = ends if place.sense > 0 else ends[::-1]
     span, goal = (end - begin) % math.tau, start + place.sense * place.at * limits.stroke
