@@ -175,6 +175,14 @@ def meant_value(driver: Driver, value: float) -> Decimal:
     return (meant_angle if driver.turns else meant)(value)[0]
 
 
+def meant_vector(z: complex, direction: bool) -> tuple[tuple[Decimal, Decimal], bool]:
+    """The decimals written in the file for a place or a direction, and whether there are any."""
+    if direction:
+        return meant_direction(z)
+    (x, known_x), (y, known_y) = meant(z.real), meant(z.imag)
+    return (x, y), known_x and known_y
+
+
 def meant_direction(z: complex) -> tuple[tuple[Decimal, Decimal], bool]:
     """The unit vector at the decimal degrees written for it."""
     angle, known = meant_angle(cmath.phase(z))
@@ -201,11 +209,7 @@ def law_doubts(drivers: Sequence[Driver]) -> Array:
 def conversion_error(z: complex, direction: bool) -> tuple[float, float]:
     """The error of a place or a direction of the file after its conversion from decimals and units: as floats, and as
     the decimals taken for them."""
-    if direction:
-        (x, y), known = meant_direction(z)
-    else:
-        (x, known_x), (y, known_y) = meant(z.real), meant(z.imag)
-        known = known_x and known_y
+    (x, y), known = meant_vector(z, direction)
     if not known:
         return GIVEN * abs(z), GIVEN * abs(z)
     return max(abs(float(Decimal(z.real) - x)), abs(float(Decimal(z.imag) - y))), 0.0

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
-from decimal import Decimal
 from itertools import combinations
 
 import numpy as np
@@ -90,7 +89,7 @@ def _diagnosis(scene: Mechanism) -> Problem | None:
                 break
             fits.append(laid)
         if len(fits) == 2:
-            tried.append((link.name, fits[0], bool(fits[0].fits[0] and fits[1].position[0] < 1e-9)))
+            tried.append((link.name, fits[0], bool(fits[0].fits_within()[0] and fits[1].position[0] < 1e-9)))
     # a driver too many does not make a link one too many
     counted = 0 < mobility_of(scene).value < len(scene.drivers)
     return _verdict([x for x in tried if x[2] or not counted])
@@ -202,11 +201,8 @@ def at_given_speed(structure: Structure) -> Structure:
     posed = Posed(structure, state.poses, structure.slides)
     once = abs(complex(np.ravel(posed.point(PointRef(name)).v)[0]))
     if not np.isfinite(once) or once <= STANDS * scene.size or once >= scene.size / SINGULAR:
-        said = (
-            Phrase("has no finite speed here")
-            if once > STANDS * scene.size
-            else Phrase("stands still here however fast it turns")
-        )
+        resting = "stands still here however fast it turns"
+        said = "has no finite speed here" if once > STANDS * scene.size else resting
         raise Unsolvable("dead point", Problem(Phrase("driver of key and name", key=driver.key, name=name), said,
                                                "give omega or another place"))
     return analyse(replace(scene, drivers=(replace(driver, rate=speed / once, given_speed=None),)))
@@ -231,7 +227,7 @@ def from_dead_point(structure: Structure) -> Structure:
         for way in point.sides:
             with working():
                 value = point.value + way * abs(distance)
-            here = _at(structure, value)
+            here = analyse(replace(scene, drivers=(replace(driver, value=float(value), exact=str(value)),)))
             try:
                 modes = choose_modes(here)
             except GraphkinError:
@@ -280,9 +276,3 @@ def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> list[Ph
         for at, ways in ends.items()
     ]
     return [Phrase("dead points", points=listed(said))] if said else []
-
-
-def _at(structure: Structure, value: Decimal) -> Structure:
-    scene = structure.scene
-    driver = scene.drivers[0]
-    return analyse(replace(scene, drivers=(replace(driver, value=float(value), exact=str(value)),)))

@@ -19,7 +19,7 @@ from graphkin.words import Phrase, links_named
 FITS = 1e-9
 MOVED = 4.0
 """As many bounds of points come together where a link is laid between two others."""
-_EXACTLY = ErrorBound(*(np.zeros(1),) * 6)
+EXACTLY = ErrorBound(*(np.zeros(1),) * 6)
 
 
 class Fit(NamedTuple):
@@ -32,11 +32,7 @@ class Fit(NamedTuple):
     acceleration: Array
     scale: tuple[Array, Array, Array]
 
-    @property
-    def fits(self) -> Array:
-        return self.fits_within(_EXACTLY)
-
-    def fits_within(self, bound: ErrorBound[Array]) -> Array:
+    def fits_within(self, bound: ErrorBound[Array] = EXACTLY) -> Array:
         """Whether its misfits are within the rounding errors of the ends of both links."""
         residuals = (self.position, self.velocity, self.acceleration)
         allowed = (FITS + MOVED * _part(b, whole) for b, whole in zip(bound.of_point, self.scale, strict=True))
@@ -85,13 +81,9 @@ def redundant_poses(
     return placed
 
 
+@np.errstate(all="ignore")
 def fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | None:
     """Place a link from its joints; None if they do not place it."""
-    with np.errstate(all="ignore"):
-        return _fit(scene, link, poses)
-
-
-def _fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | None:
     shared = {p: n for p in link.points for n in scene.holders[p] if n in poses and n != link.name}
     slides = [s for s in scene.slidings if s.a == link.name and s.b in poses]
     pose = _between_hinges(scene, link, shared, poses) if len(shared) > 1 else None
@@ -131,22 +123,16 @@ def _between_hinges(
 def _on_guide(
     scene: Mechanism, link: PlacedLink, shared: Mapping[str, str], slides: list[Pair], poses: Mapping[str, Pose]
 ) -> Pose | None:
-    if not slides:
+    if not slides or not shared:
         return None
-    pair = slides[0]
+    pair, (point, holder) = slides[0], next(iter(shared.items()))
     guide = poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
-    u = guide.u * pair.turn
-    for point, holder in shared.items():
-        at = poses[holder].fixed(scene.by_name[holder].points[point])
-        return at.pinned(rest(link.points[point]), u, guide.omega, guide.alpha)
-    return None
+    at = poses[holder].fixed(scene.by_name[holder].points[point])
+    return at.pinned(rest(link.points[point]), guide.u * pair.turn, guide.omega, guide.alpha)
 
 
 def _most(values: list[Array]) -> Array:
-    most = values[0]
-    for value in values[1:]:
-        most = np.maximum(most, value)
-    return np.asarray(most)
+    return np.asarray(np.maximum.reduce(np.broadcast_arrays(*values)))
 
 
 def _part(value: Array, whole: Array) -> Array:

@@ -131,8 +131,8 @@ def _(task: CrankRockerTask) -> Synthesis:
     if high - low <= ABOUT_D * c:
         raise _refused("swing", "is twice 180 k 1 k 1 the", "another swing or another k", swing=task.swing)
     if not theta and d <= c:
-        wanted = Phrase("it must be greater than the rocker", name=f"{c:.6g}")
-        raise _refused("frame", "with a lies between c1 and c2 on", wanted, name=d)
+        longer = Phrase("it must be greater than the rocker", name=f"{c:.6g}")
+        raise _refused("frame", "with a lies between c1 and c2 on", longer, name=d)
     if not low < d < high:
         found, wanted = "the circle about d with does not cut", "it must lie between and"
         raise _refused("frame", found, wanted, name=d, least=low, greatest=high)

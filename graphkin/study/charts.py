@@ -51,16 +51,11 @@ LEAST_GAMMA = 40.0
 EMPTY: Array = np.zeros((0, 2))
 
 
-def title_of(scene: Mechanism, language: str) -> str:
-    """The scene's title."""
-    return scene.question.title_in(language)
-
-
 def heading(scene: Mechanism, title: Words, facts: Sequence[Words], language: str) -> tuple[Text, ...]:
     """Title, title of the scene and facts, below each other."""
     return (
         Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),
-        Text(complex(LEFT, 20.5), rich(title_of(scene, language), 3.5)),
+        Text(complex(LEFT, 20.5), rich(scene.question.title_in(language), 3.5)),
         Text(complex(LEFT, 25.5), rich(spaced(word("list semicolon", language), facts), 3.5)),
     )
 
@@ -420,7 +415,7 @@ def chart_page(
             axes.tick_params(labelbottom=last)
 
     return chart.ChartPage(
-        WIDTH, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title=f"{of}: {title_of(scene, language)}",
+        WIDTH, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title=f"{of}: {scene.question.title_in(language)}",
         desc=" ".join(map(str, facts)) or of, lang=language,
         metadata={"scene": scene.name, "units": scene.units.length, **about, **metadata},
     )  # fmt: skip

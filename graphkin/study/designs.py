@@ -108,9 +108,7 @@ def designs_of(
     if table is not None:
         keys, rows = read_designs(table)
         twice = [key for key in grid if key in keys]
-        problems += [
-            Problem(f"--set {key}", Phrase("is a column of too", table=table), Phrase("give it once")) for key in twice
-        ]
+        problems += [Problem(f"--set {key}", "is a column of too", "give it once", table=table) for key in twice]
     if problems:
         raise CallError(*problems)
     made = Designs((*keys, *grid), tuple(grid.values()), rows)

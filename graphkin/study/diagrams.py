@@ -261,4 +261,4 @@ def curve_page(sheet: Sheet, axis: charts.DriverAxis, point: str, link: str, lan
         facts.append(say(Phrase("ticks at", step=str(360 // TICKS), begin=str(begin)), language))
     body = column(page.panel(content.height, drawn), prose(facts, page.width, 3.0))
     made = page.drawing(title, body, page.scale("mechanism"), title="mechanism", said="; ".join(facts))
-    return replace(made, title=f"{group.title}: {charts.title_of(scene, language)}")
+    return replace(made, title=f"{group.title}: {scene.question.title_in(language)}")

@@ -224,7 +224,7 @@ def polar_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.Cha
         chart.add_labels(axes, labels, toward=toward)
 
     return chart.ChartPage(
-        charts.WIDTH, charts.TOP + side + 16.0, paint, title=f"{quantity}: {charts.title_of(scene, language)}",
+        charts.WIDTH, charts.TOP + side + 16.0, paint, title=f"{quantity}: {scene.question.title_in(language)}",
         desc=str(facts[0]), lang=language,
         metadata={"scene": scene.name, "units": unit.text, "quantity": str(quantity)},
     )  # fmt: skip
@@ -294,7 +294,7 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
 
     return chart.ChartPage(
         charts.WIDTH, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint,
-        title=f"{title}: {charts.title_of(scene, language)}", lang=language,
+        title=f"{title}: {scene.question.title_in(language)}", lang=language,
         desc=spoken_words(spaced(word("list semicolon", language), facts), language),
         metadata={"scene": scene.name, "units": moment, "flywheel": study.link},
     )  # fmt: skip

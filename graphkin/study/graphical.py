@@ -28,7 +28,7 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_y
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange
-from graphkin.study.charts import lettered, number, title_of
+from graphkin.study.charts import lettered, number
 from graphkin.study.quantities import course_of
 from graphkin.table import Column, Table
 from graphkin.words import Phrase, listed, rich_text, say, word
@@ -259,7 +259,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         add_words(
             figure,
             Text(complex(MARGIN, 15.0), rich(title, 4.6, bold=True)),
-            Text(complex(MARGIN, 20.5), fitted(title_of(scene, language), 3.2, WIDTH - 2 * MARGIN)),
+            Text(complex(MARGIN, 20.5), fitted(scene.question.title_in(language), 3.2, WIDTH - 2 * MARGIN)),
             *(Text(complex(MARGIN, 22.0 + 4.4 * k), runs) for k, runs in enumerate(lines, 1)),
         )
         above = _panel(figure, chords, top, upper, "given", given + f" ({of_given.written})")
@@ -289,7 +289,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         add_words(figure, *bar)
 
     return ChartPage(
-        WIDTH, end + 22.0, paint, f"{title.plain()}: {title_of(scene, language)}",
+        WIDTH, end + 22.0, paint, f"{title.plain()}: {scene.question.title_in(language)}",
         spoken_words(spaced(" ", facts), language), language,
         {"scene": scene.name, "units": scene.units.length, "given": str(chords.given), "result": str(chords.result),
          "pole": chords.pole, "scales": {"given": per_y, "time": chords.per_x, "result": per_found}},

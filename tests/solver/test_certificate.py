@@ -24,7 +24,7 @@ def test_an_ordinary_position_is_certified_with_room_to_spare(text: str) -> None
 
 
 def test_what_is_no_certain_position_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(group, "certificate", lambda _, members, condition, residual: np.full(len(residual), 0.7))
+    monkeypatch.setattr(group.GroupSolved, "certificate", property(lambda solved: np.full(len(solved.residual), 0.7)))
     motion = solve(mechanism_of_text(scenes.TRIAD, "scene"))
     assert "links 2, 3, 4, 5 are so near to their dead point" in motion.why[0]
 

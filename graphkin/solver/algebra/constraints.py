@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.scene.pairs import Pair
-from graphkin.solver.algebra.pose import FIELDS, Array, Drive, Pose, rest, together, turned
+from graphkin.solver.algebra.pose import Array, Drive, Pose, rest, together, turned
 from graphkin.structure import Driven, LargerGroup, RollingRelation, Structure, kept_with
 from graphkin.structure.model import Coordinate
 
@@ -248,7 +248,7 @@ class Constraints:
         def some(column: Array) -> Array:
             return column[which] if len(column) > 1 else column
 
-        known = {name: Pose(*(some(getattr(pose, f)) for f in FIELDS)) for name, pose in self.known.items()}
+        known = {name: pose.each(some) for name, pose in self.known.items()}
         near, kept = (None if rows is None else rows[which] for rows in (self.near, self.kept))
         return Constraints(self.structure, self.group, known, self.drive[which], near, kept)
 
@@ -283,10 +283,10 @@ class Constraints:
         """Members' poses from places, rates and second rates, each of shape (n, members, 3)."""
         zero = np.zeros_like(place)
         all_ = self.at(place, zero if rate is None else rate, zero if second is None else second)
-        return {
-            name: Pose(*(np.ascontiguousarray(getattr(all_, f)[:, k]) for f in FIELDS))
-            for k, name in enumerate(self.group.members)
-        }
+        def of_link(k: int) -> Pose:
+            return all_.each(lambda x: np.ascontiguousarray(x[:, k]))
+
+        return {name: of_link(k) for k, name in enumerate(self.group.members)}
 
     def scaled(self, step: Array) -> Array:
         """Columns (n, 3 members) back to (n, members, 3) in m and rad."""

@@ -594,6 +594,8 @@ class Code:
                     body.append(f"absolute({sources[0]}, {out})")
                     sources = [out]
                 body.append(f"sqrt({sources[0]}, {out})")
+            elif line[0] in ("fmin", "fmax"):
+                body.append(f"{_UFUNCS[line[0]].__name__}({sources[0]}, {sources[1]}, out={out})")
             else:
                 body.append(f"{_UFUNCS[line[0]].__name__}({', '.join([*sources, out])})")
         head = [

@@ -65,7 +65,14 @@ class GroupSolved:
         bound on its matrix, which stays regular around it (of the first position)."""
         shift = (self.place[0] - place)[: len(self.system.group.members)]
         moved = float(np.linalg.norm(shift / np.array([self.system.structure.scene.size] * 2 + [1.0])))
-        return bool(self.condition[0] * _bending(self.system, self.poses)[0] * moved < 0.5)
+        return bool(self.condition[0] * self._bending[0] * moved < 0.5)
+
+    @cached_property
+    def _bending(self) -> Array:
+        """The greatest change of the matrix with the scaled unknowns, both as roots of squares."""
+        size, poses = self.system.structure.scene.size, (*self.poses.values(), *self.system.known.values())
+        reach = 1 + np.max(np.broadcast_arrays(*(np.abs(p.z) / size for p in poses)), axis=0)
+        return np.asarray(4 * reach * self.matrix.shape[1] ** 0.5)
 
     @cached_property
     def rolling_residuals(self) -> Array:
@@ -89,9 +96,14 @@ class GroupSolved:
 
     @cached_property
     def certificate(self) -> Array:
-        """Kantorovich's number: below 1/2 Newton's method has converged quadratically to a position."""
+        """Kantorovich's number: |J^-1| |step| times the rate of change of the matrix J, with step <= |J^-1| |residual|.
+
+        Below 1/2 there is a single position within twice the step, and Newton's method has converged to it
+        quadratically (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
+        """
         with np.errstate(all="ignore"):
-            return certificate(self.system, self.poses, self.condition, self.residual)
+            step = self.condition * np.maximum(self.residual, ROUNDINGS) * self.matrix.shape[1] ** 0.5
+            return np.asarray(self.condition * step * self._bending)
 
 
 def solve_group(
@@ -179,24 +191,6 @@ def mode_of(structure: Structure, group: LargerGroup, poses: Mapping[str, Pose])
     system = replace(system, near=np.angle(all_.u), kept=np.zeros((1, len(group.rolling))))
     kept = system.constraints(all_, 0)[0][:, system.layout.rolling_rows]
     return np.asarray(_with_turns(replace(system, kept=kept), place)[0])
-
-
-def certificate(system: Constraints, members: Mapping[str, Pose], condition: Array, residual: Array) -> Array:
-    """Kantorovich's number: |J^-1| |step| times the rate of change of the matrix J, with step <= |J^-1| |residual|.
-
-    Below 1/2 there is a single position within twice the step, and Newton's method converges to it quadratically
-    (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
-    """
-    step = condition * np.maximum(residual, ROUNDINGS) * (3 * len(system.group.members)) ** 0.5
-    return np.asarray(condition * step * _bending(system, members))
-
-
-def _bending(system: Constraints, members: Mapping[str, Pose]) -> Array:
-    """The greatest change of the matrix with the scaled unknowns, both as roots of squares."""
-    size, rows = system.structure.scene.size, 3 * len(system.group.members)
-    poses = [*members.values(), *system.known.values()]
-    reach = 1 + np.max(np.broadcast_arrays(*(np.abs(p.z) / size for p in poses)), axis=0)
-    return np.asarray(4 * reach * rows**0.5)
 
 
 def as_place(poses: Mapping[str, Pose], names: tuple[str, ...]) -> Array:

@@ -5,7 +5,7 @@ The drawing board has a pose of its own (``graphkin.plane.Pose``, on paper, with
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Generic
 
@@ -128,26 +128,25 @@ class Pose(Generic[V, R]):
             alpha,
         )
 
+    def each(self: Pose, change: Callable[[Array], Array]) -> Pose:
+        """The frame with every field changed."""
+        return Pose(*(change(getattr(self, field)) for field in FIELDS))
+
     def still(self: Pose, n: int) -> Pose:
         """The frame at n positions, in the memory of one."""
-        fields = (self.z, self.u, self.v, self.omega, self.a, self.alpha)
-        return Pose(*(np.broadcast_to(np.ravel(x)[0], (n,)) for x in fields))
+        return self.each(lambda x: np.broadcast_to(np.ravel(x)[0], (n,)))
 
     def rows(self: Pose, rows: slice | Array) -> Pose:
         """The frame at some positions; for a slice in the same memory."""
-        return Pose(*(x[rows] for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
+        return self.each(lambda x: x[rows])
 
     def where(self: Pose, ok: Array) -> Pose:
         """The frame where ok, NaN elsewhere."""
-        return Pose(*(known_where(ok, x) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
+        return self.each(lambda x: known_where(ok, x))
 
     def spread(self: Pose, n: int) -> Pose:
         """The frame with every field of shape (n,)."""
-        if all(np.shape(x) == (n,) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)):
-            return self
-        z, u, v, a = (np.array(np.broadcast_to(x, (n,)), dtype=np.complex128) for x in (self.z, self.u, self.v, self.a))
-        omega, alpha = (np.array(np.broadcast_to(x, (n,)), dtype=np.float64) for x in (self.omega, self.alpha))
-        return Pose(z, u, v, omega, a, alpha)
+        return self.each(lambda x: x if np.shape(x) == (n,) else np.array(np.broadcast_to(x, (n,))))
 
 
 def known_where(ok: Array, values: Array) -> Array:

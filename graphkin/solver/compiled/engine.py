@@ -97,11 +97,6 @@ class ExtendedPrecision:
 
     def _numbers(self, k: int, at: Sequence[Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
         """The inputs of the formulas at position ``k``, and the error of each number."""
-        given = self._drivers(k, at)
-        return {name: given.get(name) or self.dimensioned.decimal(name) for name in self.code.leaves}
-
-    def _drivers(self, k: int, at: Sequence[Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
-        """The inputs of the formulas that change from position to position, and their errors."""
         given = {name: (Decimal(float(column[k])), Decimal(0)) for name, column in self.signs.items()}
         by_laws = law_doubts(self.drivers).T.tolist()
         for j, (driver, doubts) in enumerate(zip(self.drivers, by_laws, strict=True)):
@@ -120,7 +115,7 @@ class ExtendedPrecision:
             for name, rate, doubt in (("rate", first, doubts[1]), ("second", second, doubts[2])):
                 number, exact = meant(rate)
                 given[name, j] = number, Decimal(doubt + (0 if exact else GIVEN * abs(rate)))
-        return given
+        return {name: given.get(name) or self.dimensioned.decimal(name) for name in self.code.leaves}
 
 
 UNKNOWN = Decimal("Infinity")

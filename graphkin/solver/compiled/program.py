@@ -9,13 +9,14 @@ from collections.abc import Container, Hashable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal
+from typing import Any
 
 from graphkin.scene.model import Driver
 from graphkin.scene.pairs import LawCam, Pair
 from graphkin.solver.algebra.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
 from graphkin.solver.algebra.expressions import Code, ExpressionGraph, Name, Real, Vec, components
 from graphkin.solver.algebra.pose import GIVEN, Pose
-from graphkin.solver.drivers import meant, meant_direction
+from graphkin.solver.drivers import meant_vector
 from graphkin.solver.quantities import Posed
 from graphkin.structure import Body, Driven, Dyad, LargerGroup, RollingRelation, Structure, kept_with
 from graphkin.structure.model import Coordinate
@@ -262,8 +263,8 @@ class DimensionedProgram:
 
     program: Program
     structure: Structure
+    kept: dict[Hashable, Any] = field(default_factory=dict)
     _found: dict[Name, float] = field(default_factory=dict)
-    _written: dict[Name, tuple[tuple[Decimal, Decimal], bool]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._numbers = _numbers(self.structure)
@@ -291,16 +292,10 @@ class DimensionedProgram:
         parts, known = self._meant(name[:-1])
         return parts[0 if name[-1] == "x" else 1], Decimal(0 if known else GIVEN * abs(self._numbers[name[:-1]]))
 
+    @kept_with
     def _meant(self, name: Name) -> tuple[tuple[Decimal, Decimal], bool]:
         """The decimals written in the file for a place or direction, and whether they can be told."""
-        if name not in self._written:
-            z = self._numbers[name]
-            if name[0] in ("turn", "direction"):
-                self._written[name] = meant_direction(z)
-            else:
-                (x, known_x), (y, known_y) = meant(z.real), meant(z.imag)
-                self._written[name] = (x, y), known_x and known_y
-        return self._written[name]
+        return meant_vector(self._numbers[name], name[0] in ("turn", "direction"))
 
 
 _PROGRAMS: dict[Hashable, Program] = {}

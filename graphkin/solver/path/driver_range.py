@@ -577,7 +577,7 @@ EQUAL = 1e-9
 """Of the stroke: extremes that differ by less are equal; and of the crank's angle, within which it is 0 (rad)."""
 ROUNDED = 1e-11
 """An angle (rad) between limit positions that is nothing but rounding."""
-WHERE_ELSE = Phrase("ask for s_ theta_ or d_ at single")
+WHERE_ELSE = "ask for s_ theta_ or d_ at single"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -633,21 +633,19 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     from graphkin.search import strokes_between
 
     if not reach.driver.turns:
-        raise _without(symbol, Phrase("belongs to a whole turn but the driver"), WHERE_ELSE)
+        raise _without(symbol, "belongs to a whole turn but the driver", WHERE_ELSE)
     if reach.turns != 1:
         why = reach.limit_why or Phrase("the motion does not repeat after one turn")
-        raise _without(symbol, Phrase("belongs to a whole turn which the driver", why=why), WHERE_ELSE)
+        raise _without(symbol, "belongs to a whole turn which the driver", WHERE_ELSE, why=why)
     if symbol.other:
         sliding_pair(reach.structure.slides, symbol)
     pair = symbol.pair
     offsets, values, rests, turned = _turns(reach, symbol)
     if not symbol.other and abs(turned) > 1.0:
-        raise _without(symbol, Phrase("link turns on and on it has no", output=pair), Phrase("ask for one that swings"))
+        raise _without(symbol, "link turns on and on it has no", "ask for one that swings", output=pair)
     wide, size = float(np.ptp(values)) if len(values) else 0.0, reach.scene.size if symbol.other else 1.0
     if wide < 1e-12 * size:
-        raise _without(
-            symbol, Phrase("does not move it has no limit positions", name=pair), Phrase("ask for an output that moves")
-        )
+        raise _without(symbol, "does not move it has no limit positions", "ask for an output that moves", name=pair)
     crank = reach.sense * reach.value(offsets) + EQUAL
     lows, highs = (np.flatnonzero(sign * values >= (sign * values).max() - EQUAL * wide) for sign in (-1.0, 1.0))
     below, above = ([(float(crank[k]), float(rests[k])) for k in equal] for equal in (lows, highs))
@@ -686,5 +684,5 @@ def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, Array, flo
     return np.array(offsets), values[:-2], lengths, float(values[-1] - values[-2])
 
 
-def _without(symbol: Symbol, found: Wording, wanted: Wording) -> Unsolvable:
-    return Unsolvable("no whole turn", Problem(str(symbol), found, wanted))
+def _without(symbol: Symbol, found: str, wanted: str, **gaps: object) -> Unsolvable:
+    return Unsolvable("no whole turn", Problem(str(symbol), found, wanted, **gaps))

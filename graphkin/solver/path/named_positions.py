@@ -16,7 +16,6 @@ from graphkin.search import last_true
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.path.driver_range import DriverRange, extremes, range_of
-from graphkin.words import Phrase
 
 TRIES = 24
 SAME = 1e-9
@@ -121,9 +120,7 @@ def _at_its_position(scene: Mechanism) -> Mechanism:
             guess = value
         else:
             return _at(scene, first, guess)
-    raise stop or Unsolvable(
-        "not assembled", Problem("driver.position", Phrase("is not found", position=first.position))
-    )
+    raise stop or Unsolvable("not assembled", Problem("driver.position", "is not found", position=first.position))
 
 
 def _at(scene: Mechanism, driver: Driver, value: float) -> Mechanism:
