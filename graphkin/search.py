@@ -9,6 +9,7 @@ Numer. Anal. 40, 2002; Trefethen, Approximation Theory and Approximation Practic
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -24,6 +25,8 @@ LEAST_SECTIONS = 16
 MOST_DIVISIONS = 100
 NARROW = 1e-11
 """A least value is flat: its place has no more digits."""
+ROUNDED = 1e-11
+"""An angle (rad) between limit positions that is nothing but rounding."""
 SAME_VALUE = 1e-12
 """Of the range of values: what is greater by less is the same."""
 
@@ -111,6 +114,18 @@ class Strokes(NamedTuple):
     high: int
     out: float
     back: float
+
+    @property
+    def lag(self) -> float:
+        """The angle theta = 180 (K - 1) / (K + 1) (rad): the acute angle between a crank's two limit positions."""
+        lag = math.pi * abs(self.out - self.back) / (self.out + self.back)
+        return lag if lag > ROUNDED else 0.0
+
+    @property
+    def ratio(self) -> float:
+        """K = (180 + theta) / (180 - theta): the longer way of a crank over the shorter (coefficient of travel speed
+        variation, 行程速比系数; time ratio, Norton, Design of Machinery, ch. 3)."""
+        return (math.pi + self.lag) / (math.pi - self.lag)
 
 
 def strokes_between(

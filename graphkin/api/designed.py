@@ -108,7 +108,7 @@ class Designed(Result):
             first = row(Phrase("design swing value"), task.swing, math.degrees(output.stroke), 360.0)
         else:
             first = row(Phrase("design stroke value"), task.stroke, output.stroke / metres, task.stroke)
-        return [first, row(Phrase("design K value"), task.K, output.ratio, task.K)]
+        return [first, row(Phrase("design K value"), task.K, output.ways.ratio, task.K)]
 
     def _directions(
         self, task: BarPositionsTask | FunctionTask

@@ -25,7 +25,6 @@ from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, listed_points, own_slides
 from graphkin.solver.path.assemblies import choose_modes
 from graphkin.solver.path.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
-from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, listed
@@ -79,9 +78,7 @@ def solve(
     if sweep is not None:
         return range_from(structure, modes, goal).sweep(sweep)
     drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in modes.items()}
-    found = motion_of(
-        structure, drive, here, partial(assembly_words, structure, modes), np.ones(1, dtype=bool), extended=extended
-    )
+    found = motion_of(structure, drive, here, modes, np.ones(1, dtype=bool), extended=extended)
     return replace(found, passed=passed)
 
 
@@ -151,11 +148,10 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     names = [*structure.links, *(link.name for link in structure.scene.links if link.redundant)]
     poses = dict.fromkeys(names, gone)
     poses[structure.scene.frame.name] = none
-    unknown = tuple(Phrase("assembled nowhere") for _ in structure.groups)
     nothing = np.zeros(n, dtype=bool)
     accuracy = Accuracy(structure, poses, Drive.at(structure, values), np.zeros((n, 0)), nothing, nothing, nothing)
-    return Motion(structure, values, np.full(n, status), (why,) * n, poses, lambda: unknown, accuracy,
-                  partial(range_of, structure))  # fmt: skip
+    reach = partial(range_of, structure)
+    return Motion(structure, values, np.full(n, status), (why,) * n, poses, None, accuracy, reach)
 
 
 # -- the motion at moments in time, where drivers move by laws: their rates change from one moment to the --------------
@@ -197,8 +193,7 @@ def _several_drivers(structure: Structure, drive: Drive, extended: bool) -> Moti
     continues from before them."""
     from graphkin.solver.path.continuity import follow_path
 
-    modes = choose_modes(structure)
-    assembly = partial(assembly_words, structure, modes)
+    modes = start = choose_modes(structure)
     here, found = own_values(structure.scene), []
     turns: list[dict[str, float]] = []
     good, why = np.ones(len(drive), dtype=bool), list[Wording]([""] * len(drive))
@@ -214,6 +209,6 @@ def _several_drivers(structure: Structure, drive: Drive, extended: bool) -> Moti
         found.append(modes)
         turns[k:] = [turns[-1] if turns else {}]
     stacked = {i: np.stack([f[i] for f in found]) for i in modes}
-    motion = motion_of(structure, drive, stacked, assembly, good, extended=extended)
+    motion = motion_of(structure, drive, stacked, start, good, extended=extended)
     reasons = tuple(a or b for a, b in zip(motion.reasons, why, strict=True))
     return replace(motion, reasons=reasons, turned={n: np.array([s.get(n, 0.0) for s in turns]) for n in motion.poses})

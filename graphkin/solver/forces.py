@@ -46,18 +46,16 @@ class PairForce:
     at: Array
 
 
-def pair_forces(motion: Motion) -> list[PairForce]:
+def pair_forces(motion: Motion) -> Iterator[PairForce]:
     """The forces and couples in the pairs of a motion: of a turning pair the two components of its force, of a sliding
     pair a force square to the guide at the sliding link's first point and a couple, of a pin in a slot a force square
     to the slot, of a cam or a sliding contact one along the normal, of wheels one along the tangent of the pitch
     circles."""
-    found: list[PairForce] = []
     for joint in joints(motion.scene):
         ways, at = _lines(motion, joint)
-        found += [PairForce(joint.symbol("F"), joint.first, joint.second, way, at) for way in ways]
+        yield from (PairForce(joint.symbol("F"), joint.first, joint.second, way, at) for way in ways)
         if joint.couple:
-            found.append(PairForce(joint.symbol("M"), joint.first, joint.second, None, at))
-    return found
+            yield PairForce(joint.symbol("M"), joint.first, joint.second, None, at)
 
 
 def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array], Array]:
@@ -79,26 +77,24 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
     return along[joint.pair.means], at
 
 
-def balances(motion: Motion) -> list[PairForce]:
+def balances(motion: Motion) -> Iterator[PairForce]:
     """The balancing loads: for each driver a moment or a force between the two links that it moves relatively, or the
     scene's own balance."""
-    scene, found = motion.scene, []
-    said = scene.loading.balance
+    scene, said = motion.scene, motion.scene.loading.balance
     if said is not None:
         pose = motion.poses[said.link]
         along = None if not said.is_force else said.turn * np.asarray(pose.u) if said.follows else said.turn
         symbol = Symbol("F" if said.is_force else "M", link=said.link)
-        return [PairForce(symbol, scene.frame.name, said.link, along, np.asarray(pose.fixed(said.at).z))]
+        yield PairForce(symbol, scene.frame.name, said.link, along, np.asarray(pose.fixed(said.at).z))
+        return
     for driver in scene.drivers:
         symbol = balance_of(scene, driver)
         if driver.turns:
-            at = np.asarray(motion.poses[driver.link].z)
-            found.append(PairForce(symbol, driver.relative_to, driver.link, None, at))
+            yield PairForce(symbol, driver.relative_to, driver.link, None, np.asarray(motion.poses[driver.link].z))
             continue
         slide = motion.structure.slide(driver.key)
         along = -1j * _square(motion, slide)
-        found.append(PairForce(symbol, slide.b or scene.frame.name, slide.body, along, _foot(motion, slide)))
-    return found
+        yield PairForce(symbol, slide.b or scene.frame.name, slide.body, along, _foot(motion, slide))
 
 
 def _foot(motion: Motion, slide: Pair) -> Array:
@@ -326,13 +322,11 @@ class Forces:
         return np.sum(own, axis=0), np.max(np.abs(own), axis=0)
 
     @property
-    def balancing(self) -> list[Action]:
+    def balancing(self) -> Iterator[Action]:
         """The balancing loads as actions on both links of each balance."""
-        found = []
         for one in balances(self.motion):
             value, place = self.values[one.symbol], None if one.along is None else one.at
-            found += [Action(None, one.second, place, value), Action(None, one.first, place, -value)]
-        return found
+            yield from (Action(None, one.second, place, value), Action(None, one.first, place, -value))
 
     def value(self, symbol: Symbol) -> Array | None:
         """A force or a moment, ``F_6/5`` being the opposite of ``F_5/6``, ``F_5/6+`` with the loads that begin or end

@@ -122,17 +122,12 @@ def with_sensible_guides(structure: Structure) -> Structure:
 
     Only dyads up to the first larger group are examined.
     """
-    free = _free_guides(structure)
-    if not free:
+    free, found = _free_guides(structure), list[tuple[tuple[int, ...], State]]()
+    if not free or _reached(structure, ()) is not None:
         return structure
-    if _reached(structure, ()) is not None:
-        return structure
-    found = []
     for count in range(1, len(free) + 1):
-        for some in combinations(free, count):
-            state = _reached(structure, some)
-            if state is not None:
-                found.append((some, state))
+        tried = ((some, _reached(structure, some)) for some in combinations(free, count))
+        found = [(some, state) for some, state in tried if state is not None]
         if found:
             break
     if len(found) != 1:

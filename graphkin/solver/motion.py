@@ -19,6 +19,7 @@ from graphkin.scene.tables import Measure
 from graphkin.solver.algebra.bounds import BLOCK, FEW, Accuracy
 from graphkin.solver.algebra.pose import UNIT, Array, ErrorBound, Pose
 from graphkin.solver.quantities import Posed, all_slides, value_of_symbol
+from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
@@ -35,7 +36,7 @@ class Motion:
     status : str, shape (n,): "ok", "dead point" or "not assembled"
     reasons : for each position the reason why it is not "ok", else empty; `why` is in English
     poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
-    assembled : gives the assembly of each group in words
+    modes : the assembly of each group where the motion starts; None if it is assembled nowhere
     accuracy : the source of the bounds of its errors
     reach : function to the ``DriverRange`` of the first driver; raises Unsolvable without one
     passed : the change points on the path from the scene's own position
@@ -48,7 +49,7 @@ class Motion:
     status: Array
     reasons: tuple[Wording, ...]
     poses: Mapping[str, Pose]
-    assembled: Callable[[], tuple[Phrase, ...]]
+    modes: Mapping[int, Array] | None
     accuracy: Accuracy
     reach: Callable[[], Any]
     turned: Mapping[str, Array] = field(default_factory=dict)
@@ -72,7 +73,9 @@ class Motion:
     @cached_property
     def assembly(self) -> tuple[Phrase, ...]:
         """The assembly of each group in words, in the order of ``structure.groups``."""
-        return self.assembled()
+        if self.modes is None:
+            return (Phrase("assembled nowhere"),) * len(self.structure.groups)
+        return assembly_words(self.structure, self.modes)
 
     @cached_property
     def growing(self) -> Motion:
@@ -248,14 +251,9 @@ class Motion:
         """Bounds of the rounding errors of any point, and of the angles of links and their rates; NaN where not ok."""
         return self.accuracy.of(())
 
-    @cached_property
-    def rates_in_double(self) -> tuple[Array, Array]:
-        """The bounds of velocity and acceleration of a computation in 16 digits, as of a drawing, for points as far off
-        as the mechanism is large."""
-        return self.bounds_in_double(())[1:]
-
-    def bounds_in_double(self, links: Iterable[str]) -> tuple[Array, Array, Array]:
-        """The bounds of some links in 16 digits: of place, velocity and acceleration."""
+    def bounds_in_double(self, links: Iterable[str] = ()) -> tuple[Array, Array, Array]:
+        """The bounds of place, velocity and acceleration of some links, or of all, in 16 digits, as of a drawing, for
+        points as far off as the mechanism is large."""
         size, error = self.accuracy.structure.scene.size, self.accuracy.of(links, drawn=True)
         return (
             error.position, np.maximum(error.velocity, size * error.omega),

@@ -82,7 +82,7 @@ def _of_turn(motion: Motion, symbol: Symbol) -> float:
     """A quantity of the whole turn of the first driver, the others at the single position of a motion."""
     values = {d.key: float(v) for d, v in zip(motion.scene.drivers, motion.values[0], strict=True)}
     found = extremes(range_of(structure_of(motion.structure), values), symbol)
-    return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
+    return {"K": found.ways.ratio, "theta_lag": found.ways.lag}.get(symbol.kind, found.stroke)
 
 
 @kept_with
@@ -139,7 +139,7 @@ def rounding_of(motion: Motion, symbols: Iterable[Symbol], of_forces: bool = Fal
         place, v, a = float(np.nan_to_num(position[0], posinf=0.0)), float(velocity[0]), float(acceleration[0])
         return Lost(place, v, a, force, v <= SLIGHT * rate * size and a <= SLIGHT * second * size)
 
-    whole = lost(motion.bound.position, *motion.rates_in_double)
+    whole = lost(motion.bound.position, *motion.bounds_in_double()[1:])
 
     rounding = dict.fromkeys(symbols, whole)
     for symbol in () if whole.slight else [symbol for symbol in rounding if symbol.scope != "force"]:

@@ -30,8 +30,6 @@ PER_DECADE = 2
 class ErrorLaw:
     """The growth of the error of a method.
 
-    Parameters
-    ----------
     key : word for the method and its quantity
     x : distances from the singular position, falling
     error : the largest error at each, nan where the method gives no answer
@@ -87,8 +85,6 @@ class ErrorLaw:
 class Singularity:
     """A kind of singularity with the laws of all methods there.
 
-    Parameters
-    ----------
     key : the word for it
     distance : the word for the axis
     laws : the growth of errors
@@ -109,8 +105,6 @@ class Singularity:
 class Answer(NamedTuple):
     """The result of a method at a distance.
 
-    Parameters
-    ----------
     errors : of each of its quantities; nan where it refuses
     warns : whether it calls its answer uncertain
     bounds : its own bound of the error of each, if it states one

@@ -69,8 +69,6 @@ def drawn(sheet: Sheet, symbol: Symbol) -> float | None:
 class Chords:
     """A diagram differentiated or integrated on paper (mm), and its results, beside the exact values (SI).
 
-    Parameters
-    ----------
     x, y : nodes of the given diagram; shape (n + 1,); of an integral ``y`` holds the ordinates in the middles, (n,)
     pole : its distance H before the ordinate axis
     rays : the ordinates at which the lines from the pole cut the ordinate axis, (n,)

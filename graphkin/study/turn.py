@@ -20,7 +20,6 @@ from graphkin.search import strokes_between
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.path.driver_path import FAR, Path, Stretch, assembled, not_tried
 from graphkin.solver.path.driver_range import EQUAL as EQUALLY_FAR
-from graphkin.solver.path.driver_range import lag_of, ratio_of
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Driven, Dyad, DyadKind, Structure
 from graphkin.study.extremes import Extreme, Traced, trace
@@ -392,18 +391,13 @@ class TurnStudy:
             return stop
 
     def quick_return(self, output: Output) -> tuple[float, float] | None:
-        """K of an output, and the crank angle theta (rad) between its limit positions; None where it has none.
-
-        K = (180 + theta) / (180 - theta): the greater of the driver's two angles between the limit positions of the
-        output over the smaller, dwells and the way between equal limit positions not counted; 1 or more (coefficient of
-        travel speed variation, 行程速比系数; quick-return or time ratio, Norton, Design of Machinery, ch. 3).
-        """
+        """K of an output (quick-return or time ratio), and the crank angle theta (rad) between its limit positions, as
+        `Strokes` have them: dwells and the way between equal limit positions not counted; None where it has none."""
         if not output.lows or not output.highs or self.reach.turns != 1:
             return None
         lows, highs = ([(e.offset, e.rest) for e in equal] for equal in (output.lows, output.highs))
         strokes = strokes_between(lows, highs, math.tau)
-        lag = lag_of(strokes.out, strokes.back)
-        return None if lag > np.pi * (1 - 2e-12) else (ratio_of(lag), lag)
+        return None if strokes.lag > np.pi * (1 - 2e-12) else (strokes.ratio, strokes.lag)
 
 
 def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: bool = True) -> TurnStudy:

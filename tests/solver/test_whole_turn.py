@@ -105,4 +105,4 @@ def test_K_counts_no_dwells(output: str, omega: float) -> None:
     found = extremes(
         driver_range(mechanism_of_text(DWELLS.format(angle=37, omega=omega), "cam")), Symbol.parse(f"K_{output}")
     )
-    assert (pytest.approx(2.0, rel=1e-9), pytest.approx(math.pi / 3, rel=1e-9)) == (found.ratio, found.lag)
+    assert (pytest.approx(2.0, rel=1e-9), pytest.approx(math.pi / 3, rel=1e-9)) == (found.ways.ratio, found.ways.lag)

@@ -324,16 +324,14 @@ def angle_of(direction: Any) -> Any:
 def fmin(x: Number, y: Number) -> Number:
     """The smaller of two numbers; if one is nan, the other."""
     if not isinstance(x, Real):
-        smaller: Array = np.fmin(x, y)
-        return smaller
+        return np.asarray(np.fmin(x, y))
     return x.graph.line("fmin", x.at, y.at)
 
 
 def fmax(x: Number, y: Number) -> Number:
     """The greater of two numbers."""
     if not isinstance(x, Real):
-        greater: Array = np.fmax(x, y)
-        return greater
+        return np.asarray(np.fmax(x, y))
     return x.graph.line("fmax", *sorted((x.at, y.at)))
 
 
@@ -478,9 +476,7 @@ class Code:
         position."""
         inputs = {name: f"i[{k}]" for name, k in self._input.items()}
         body, names = self._straight(self.order, inputs)
-        text = "\n    ".join(["def made(p, i):", *body, _tuple(names[at] for at in self.asked)])
-        made: Callable[[Sequence[float], Sequence[float]], tuple[float, ...]] = defined(text, FLOATS)
-        return made
+        return defined(["def made(p, i):", *body, _tuple(names[at] for at in self.asked)], FLOATS)
 
     def _straight(
         self,
@@ -547,8 +543,7 @@ class Code:
                 wanted.setdefault(at, len(wanted))
         order = [at for at in self.order if at not in self.varying]
         body, names = self._straight(order, {})
-        text = "\n    ".join(["def made(p):", *body, _tuple(names.get(at, f"x{at}") for at in wanted)])
-        return defined(text, FLOATS), wanted
+        return defined(["def made(p):", *body, _tuple(names.get(at, f"x{at}") for at in wanted)], FLOATS), wanted
 
     @cached_property
     def _blocks(self) -> tuple[Callable[..., None], int]:
@@ -605,8 +600,7 @@ class Code:
             *_unpacked("o", len(self.asked)),
             *_unpacked("r", count),
         ]
-        text = "\n    ".join([*head, *body, *copies, "return None"])
-        return defined(text, {f.__name__: f for f in _UFUNCS.values()}), count
+        return defined([*head, *body, *copies, "return None"], {f.__name__: f for f in _UFUNCS.values()}), count
 
     def invariants(self, params: Sequence[float], dtype: DTypeLike = np.float64) -> list[Array] | None:
         """The numbers that are the same at all positions; None where they cannot be computed."""
@@ -650,8 +644,9 @@ def _tuple(texts: Iterable[str]) -> str:
     return f"return ({''.join(f'{t}, ' for t in texts)})"
 
 
-def defined(text: str, called: Mapping[str, object]) -> Any:
-    """The function ``made`` that a text defines; ``called`` are the functions that it calls."""
+def defined(lines: Sequence[str], called: Mapping[str, object]) -> Callable[..., Any]:
+    """The function ``made`` that its head and the lines of its body define; ``called`` are the functions that it
+    calls."""
     space: dict[str, Any] = dict(called)
-    exec(compile(text, "<formulas>", "exec"), space)
-    return space["made"]
+    exec(compile("\n    ".join(lines), "<formulas>", "exec"), space)
+    return space["made"]  # type: ignore[no-any-return]

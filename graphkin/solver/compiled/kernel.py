@@ -149,7 +149,7 @@ Function = TypeVar("Function", bound=Callable[..., object])
 def _compiled(text: str) -> Callable[..., None]:
     """The compiled function that a text defines.  Raises CallError without numba."""
     called = _library()
-    made: Callable[..., None] = called["njit"](defined(text, called))
+    made: Callable[..., None] = called["njit"](defined([text], called))
     return made
 
 

@@ -10,7 +10,7 @@ Quantities of the whole turn: stroke of a slide, swing of a link, coefficient of
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
@@ -29,13 +29,13 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.path.assemblies import choose_modes
 from graphkin.solver.path.dead_points import singular, without_singular
 from graphkin.solver.redundant import redundant_poses
-from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure, kept_with
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase, Wording
 
 if TYPE_CHECKING:
+    from graphkin.search import Strokes
     from graphkin.solver.path.driver_path import Path
 
 CLOSED = 1e-7
@@ -372,7 +372,11 @@ class DriverRange:
         if rates:
             drive = Drive(drive.value, *(np.zeros_like(drive.value) for _ in rates))
             drive.rate[:, 0], drive.second[:, 0] = rates
-        return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset), extended)
+        part, good = within / abs(self.wide), self.reaches(offset)
+        why = "" if good.all() or not extended else self.limit_why
+        at_start = {i: mode[0] for i, mode in self.ahead.mode(np.zeros(1)).items()}
+        motion = motion_of(self.structure, drive, self.modes(part), at_start, good, why, extended)
+        return replace(motion, values=self.values(offset), turned=self.turned(part))
 
     def _reached(self, offset: Array) -> Array:
         """The offsets, a turn less where an angle driver that cannot turn fully reaches them the opposite way round."""
@@ -406,13 +410,6 @@ class DriverRange:
             found = replace(self.motion(offset[first : first + BLOCK]), passed=self.change_points)
             before = found if before is None else found.after(before)
             yield before
-
-    def _motion(self, part: Array, values: Array, drive: Drive, good: Array, extended: bool = True) -> Motion:
-        why = "" if good.all() or not extended else self.limit_why
-        at_start = {i: mode[0] for i, mode in self.ahead.mode(np.zeros(1)).items()}
-        words = partial(assembly_words, self.structure, at_start)
-        found = motion_of(self.structure, drive, self.modes(part), words, good, why, extended)
-        return replace(found, values=values, turned=self.turned(part))
 
     def angle(self, motion: Motion, link: str) -> Array:
         """The angle of a link in a motion of this range (rad), without jumps over the whole of it, whole turns
@@ -471,7 +468,7 @@ def motion_of(
     structure: Structure,
     drive: Drive,
     modes: Mapping[int, Array],
-    assembled: Callable[[], tuple[Phrase, ...]],
+    start: Mapping[int, Array],
     good: Array,
     why: Wording = "",
     extended: bool = True,
@@ -481,7 +478,7 @@ def motion_of(
     Parameters
     ----------
     modes : the assembly mode of each group at each position, as for ``positions``
-    assembled : gives the assembly in words
+    start : the assembly mode of each group where the motion starts
     good, why : the positions that the motion reaches, shape (n,), and the reason for the others
     extended : False keeps 16 digits everywhere, without reasons
     """
@@ -500,8 +497,7 @@ def motion_of(
     accuracy = Accuracy(structure, poses, state.drive, state.slack, state.refined, state.clear, ok)
     if any(link.redundant for link in structure.scene.links):
         poses = {**poses, **redundant_poses(structure, poses, ok, accuracy.of(()))}
-    return Motion(structure, drive.value, status, tuple(reasons), poses, assembled, accuracy,
-                  partial(range_of, structure))  # fmt: skip
+    return Motion(structure, drive.value, status, tuple(reasons), poses, start, accuracy, partial(range_of, structure))
 
 
 def joined(blocks: Iterable[Motion], n: int) -> Motion:
@@ -575,49 +571,23 @@ REST = 1e-9
 """Of the size of the mechanism, or of a radian, for one of the driver: what is slower is at rest."""
 EQUAL = 1e-9
 """Of the stroke: extremes that differ by less are equal; and of the crank's angle, within which it is 0 (rad)."""
-ROUNDED = 1e-11
-"""An angle (rad) between limit positions that is nothing but rounding."""
 WHERE_ELSE = "ask for s_ theta_ or d_ at single"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Extremes:
     """The least and the greatest value of an output over a turn (m, rad), the driver's offsets where the output leaves
-    them, and the angles (rad) by which the driver turns during the stroke to the greatest value and during that to the
-    least, as `strokes_between` has them."""
+    them, and the ways of the driver between them (rad)."""
 
     low: float
     high: float
     low_offset: float
     high_offset: float
-    out: float
-    back: float
+    ways: Strokes
 
     @property
     def stroke(self) -> float:
         return self.high - self.low
-
-    @property
-    def lag(self) -> float:
-        """The angle theta = 180 (K - 1) / (K + 1) (rad): the acute angle between the crank's two limit positions."""
-        return lag_of(self.out, self.back)
-
-    @property
-    def ratio(self) -> float:
-        """K = (180 + theta) / (180 - theta): the longer way of the crank over the shorter (coefficient of travel speed
-        variation, 行程速比系数; time ratio, Norton, Design of Machinery, ch. 3)."""
-        return ratio_of(self.lag)
-
-
-def lag_of(out: float, back: float) -> float:
-    """The angle theta = 180 (K - 1) / (K + 1) (rad) of the angles by which a crank turns during both strokes."""
-    lag = math.pi * abs(out - back) / (out + back)
-    return lag if lag > ROUNDED else 0.0
-
-
-def ratio_of(lag: float) -> float:
-    """K = (180 + theta) / (180 - theta) of the angle theta (rad)."""
-    return (math.pi + lag) / (math.pi - lag)
 
 
 @kept_with
@@ -653,7 +623,7 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     (low, start), (high, end) = (
         (float(values[k]), float(offsets[k])) for k in (lows[strokes.low], highs[strokes.high])
     )
-    return Extremes(low, high, start, end, strokes.out, strokes.back)
+    return Extremes(low, high, start, end, strokes)
 
 
 def _turns(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, Array, float]:
