@@ -28,7 +28,7 @@ def drafted(name: str) -> tuple[Sheet, Sheet]:
 def drafts(scene: Mechanism, at: Mapping[str, float] | None = None) -> tuple[Sheet, Sheet]:
     """The construction for single figures, and for the sheet, at driver values (rad, m): one plan at two scales."""
     planned = plan(scene, at)
-    return execute(planned), execute(replace(planned, scales=planned.scales_for(sheet_room(scene))))
+    return execute(planned), execute(replace(planned, scales=planned.exact.scales_for(sheet_room(scene))))
 
 
 def drawn(name: str, language: str = "en", convention: str = "chinese") -> dict[str, Drawing]:

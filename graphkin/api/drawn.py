@@ -78,7 +78,7 @@ class Drawn(OfScene, Result):
         """The construction at the scales that fit the sheet, with its own readings."""
         from graphkin.drawing.sheet_plan import sheet_room
 
-        fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.mechanism)))
+        fitting = replace(self.plan, scales=self.plan.exact.scales_for(sheet_room(self.mechanism)))
         return checked(fitting, self.motion, self._hand)
 
     @property

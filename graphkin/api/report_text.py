@@ -156,7 +156,7 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
         pins = dict.fromkeys(s.pin for s in checked.mechanism.slides if s.higher)
         return [say(Phrase("at pins", points=listed([*pins])), language)] if pins else []
     said = ("at contact", "at pitch curve")
-    ways = dict.fromkeys((str(n.of[0]), n.key) for n in other.sheet.remarks if n.key in said)
+    ways = dict.fromkeys(("".join(map(str, n.of.values())), n.key) for n in other.sheet.remarks if n.key in said)
     if not ways:  # nothing asked leads over a contact
         return []
     names, curve = [name for name, _ in ways], any(key == "at pitch curve" for _, key in ways)

@@ -47,12 +47,12 @@ def read_off(
     twins = _one_vector(sheet) if instrument is not EXACT else {}
     scales = sheet.scales.velocity, sheet.scales.acceleration
     for order, (kind, rates), per_mm in zip(ORDERS, sheet.rates.items(), scales, strict=True):
-        for symbol, span in sheet.spans[order].items():
+        for symbol, drawn in sheet.vectors[order].items():
             twin = readings.get(twins.get(symbol, symbol))
             if twin is not None:
                 readings[symbol] = replace(twin, symbol=symbol)
                 continue
-            length, along = _vector(sheet, symbol, span, instrument)
+            length, along = _vector(sheet, symbol, drawn.span, instrument)
             readings[symbol] = Reading(symbol, length, along * per_mm, order, per_mm)
         for link, r in rates.items():
             if link == sheet.scene.frame.name or "/" in link:

@@ -276,7 +276,7 @@ def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, Value]]) -> dict[Symbo
         vectors = [(symbol, size) for symbol, size in sizes.items() if symbol.is_vector]
         rates = [(symbol, size) for symbol, size in sizes.items() if not symbol.is_vector]
         # vectors that only lead to the readings asked for belong to the diagram too
-        every = [*vectors, *((symbol, abs(span) * per_mm) for symbol, span in sheet.spans[order].items())]
+        every = [*vectors, *((symbol, abs(drawn.span) * per_mm) for symbol, drawn in sheet.vectors[order].items())]
         # a rate that is zero comes from a vector divided by a length
         slow = [(symbol, size / sheet.scene.size) for symbol, size in every]
         most |= greatest_before(sheet.structure, every, [symbol for symbol, _ in vectors])
@@ -307,7 +307,7 @@ def _forces(
     inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
     relative = rounding[forces[0][0].symbol].force / largest if largest else 0.0
     # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
-    speeds = map(abs, sheet.spans["velocity"].values())
+    speeds = (abs(drawn.span) for drawn in sheet.vectors["velocity"].values())
     fastest = max(most("velocity"), max(speeds, default=0.0) * sheet.scales.velocity or size)
     wholes = {"force": largest, "moment": turning, "velocity": fastest}
 

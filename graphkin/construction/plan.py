@@ -19,7 +19,7 @@ from itertools import product
 from typing import TYPE_CHECKING
 
 from graphkin.construction.board.instruments import EXACT, Instrument
-from graphkin.construction.board.scales import Room, Scales, chosen_scales
+from graphkin.construction.board.scales import Room, Scales
 from graphkin.construction.board.sheet import Board, GroupWay, Limits, Sheet, without_residues
 from graphkin.construction.board.steps import ORDERS, Order, RateStep, Step
 from graphkin.construction.polygons.elements import draw_element
@@ -116,12 +116,6 @@ class Plan:
         return force_scales(self.exact.at(self.scales))
 
     @property
-    def forces_not_known(self) -> Phrase | None:
-        """The sentence on why no forces are drawn."""
-        stop = self.without_forces
-        return None if stop is None else Phrase("forces not known", why=stop.reason)
-
-    @property
     def loads_on_strokes(self) -> dict[Symbol, LoadOn]:
         """The strokes on parts of which loads act, each with a load on it; empty where no forces are drawn."""
         loads = self.structure.scene.loading.loads if self.has_forces else ()
@@ -153,10 +147,6 @@ class Plan:
     def in_order(self) -> Iterator[tuple[Order, Element]]:
         """The elements drawn in the polygons, in order."""
         return ((order, element) for order in ORDERS for element in self.drawn[order])
-
-    def scales_for(self, room: Room | None) -> Scales:
-        """The scales that fill a room; without one the scene's own if it gives them."""
-        return chosen_scales(self.structure.scene, self.exact.extents, room)
 
     def with_branches(self, branches: Mapping[int, int]) -> Plan:
         """The plan in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
@@ -195,8 +185,7 @@ class Plan:
         except Unsolvable:  # a contact at a pivot, which turns nothing there
             return None
         exact = finished(other, polygons)
-        scales = chosen_scales(self.structure.scene, exact.extents, None)
-        return replace(other, made=exact, scales=scales, chains=polygons.chains, plans=polygons.plans)
+        return replace(other, made=exact, scales=exact.scales_for(None), chains=polygons.chains, plans=polygons.plans)
 
 
 # -- carried out on a board --------------------------------------------------------------------------------------------
@@ -235,7 +224,7 @@ def carried_out(
 def finished(planned: Plan, polygons: Polygons) -> Sheet:
     """The board as a sheet, with vectors that only a question needs."""
     draw_asked(polygons, planned.asked)
-    board, limits = polygons.board, planned.limits
+    board, limits, stop = polygons.board, planned.limits, planned.without_forces
     groups: dict[LargerGroup, GroupWay] = {}
     for group in needed(planned.structure, planned.asked) if planned.structure.larger_groups else ():
         if isinstance(group, LargerGroup):
@@ -271,7 +260,7 @@ def finished(planned: Plan, polygons: Polygons) -> Sheet:
         limits=limits,
         readings=dict(board.readings),
         has_forces=planned.has_forces,
-        without_forces=planned.forces_not_known,
+        without_forces=None if stop is None else Phrase("forces not known", why=stop.reason),
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
 
@@ -462,8 +451,7 @@ def _planned(planned: Plan, room: Room | None) -> Plan:
         moves = any(driver.values[1] for driver in planned.structure.scene.drivers)
         planned = replace(planned, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
         exact = replace(exact, acting=planned.acting, growing=planned.growing)
-    scales = chosen_scales(planned.structure.scene, exact.extents, room)
-    return replace(planned, chains=polygons.chains, plans=polygons.plans, scales=scales, made=exact)
+    return replace(planned, chains=polygons.chains, plans=polygons.plans, scales=exact.scales_for(room), made=exact)
 
 
 def _growing(planned: Plan, here: Sheet) -> tuple[Sheet, ...]:

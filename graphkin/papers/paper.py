@@ -103,7 +103,7 @@ def paper_plan(
     paper = paper_of(scene)
     wished = {name: getattr(scene.question.sheet, f"{name}_scale") for name in NAMES}
     if paper != A4:
-        scales, filled = fitted.scales, fitted.scales_for(paper.room(FILLED))
+        scales, filled = fitted.scales, fitted.exact.scales_for(paper.room(FILLED))
         fitted = replace(fitted, scales=_scales(lambda name: getattr(scales if wished[name] else filled, name)))
     fits = _fits(fitted, paper)
     if not all(fits.values()):
@@ -111,7 +111,7 @@ def paper_plan(
         if larger is not None:
             whole = of if isinstance(of, Mechanism) else of.scene
             return paper_plan(whole.asking(sheet=replace(whole.question.sheet, paper=larger)), values, asked, share)
-        scales, roomed = fitted.scales, fitted.scales_for(paper.room(MOST))
+        scales, roomed = fitted.scales, fitted.exact.scales_for(paper.room(MOST))
         fitted = replace(fitted, scales=_scales(lambda name: getattr(scales if fits[name] else roomed, name)))
     return _sharing(fitted, paper, wished) if share else fitted
 
@@ -122,7 +122,7 @@ def _sharing(whole: Plan, paper: Paper, wished: Mapping[str, float | None]) -> P
     if _share(whole, paper):
         return whole
     for part in PARTS:
-        both = whole.scales, whole.scales_for(paper.room(FILLED, part))
+        both = whole.scales, whole.exact.scales_for(paper.room(FILLED, part))
         coarser = (max(getattr(scales, name) for scales in both[: 1 if wished[name] else 2]) for name in NAMES)
         tried = replace(whole, scales=Scales(*coarser))
         if _share(tried, paper):

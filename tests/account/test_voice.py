@@ -319,7 +319,7 @@ def test_a_sum_breaks_only_before_its_sign_of_equality():
 def test_a_contact_is_named_as_the_point_that_it_is():
     sheet = draft(mechanism_of("cam-flat-face"))
     account = Account(sheet, notation_of(sheet, "chinese"))
-    remark = Remark("acceleration", "at contact", ("K",)).phrase
+    remark = Remark("acceleration", "at contact", {"contact": "K"}).phrase
     assert repr(account.say(remark, "en")).startswith("contact $K$ is drawn at the contact itself")
 
 

@@ -348,9 +348,11 @@ def test_the_limit_positions_of_a_follower_stand_its_lift_apart_on_either_side_o
 
 
 @pytest.mark.parametrize(("remark", "said"), [
-    (Remark("velocity", "sharp crossing", ("B",), size=math.sin(math.radians(5.0))), "cross at 5 degrees only"),
-    (Remark("mechanism", "short arm", ("link 2", "A", "B"), mm=2.0), "A lies only 2 mm from B on paper"),
-    (Remark("velocity", "magnified", ("link 2",), size=3.0), "by up to 3 times as much"),
+    (Remark("velocity", "sharp crossing", {"result": "B"}, size=math.sin(math.radians(5.0))),
+     "cross at 5 degrees only"),
+    (Remark("mechanism", "short arm", {"links": "link 2", "point": "A", "other": "B"}, mm=2.0),
+     "A lies only 2 mm from B on paper"),
+    (Remark("velocity", "magnified", {"links": "link 2"}, size=3.0), "by up to 3 times as much"),
 ])  # fmt: skip
 def test_a_remark_tells_an_angle_a_length_or_a_factor(remark, said):
     assert remark.holds
@@ -365,8 +367,8 @@ def test_a_vector_with_a_length_is_not_said_to_be_none():
 
 
 def test_an_arm_is_short_below_3_mm_and_a_crossing_off_the_sheet_beyond_2_m():
-    arms = [Remark("mechanism", "short arm", ("link 2", "A", "B"), mm=mm).holds for mm in (2.9, 3.1)]
-    crossings = [Remark("velocity", "off the sheet", ("B",), mm=mm).holds for mm in (2001.0, 1999.0)]
+    arms = [Remark("mechanism", "short arm", {}, mm=mm).holds for mm in (2.9, 3.1)]
+    crossings = [Remark("velocity", "off the sheet", {}, mm=mm).holds for mm in (2001.0, 1999.0)]
     assert [True, False] == arms == crossings
 
 

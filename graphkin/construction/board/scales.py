@@ -31,47 +31,22 @@ Rectangle = tuple[float, float]
 
 
 def extent_of(points: Iterable[complex], per_mm: float) -> Rectangle:
-    """The extent of points; empty without points.
-
-    Parameters
-    ----------
-    points : on paper (mm)
-    per_mm : the scale (units for one mm)
-    """
-    spots = list(points)
-    if not spots:
-        return 0.0, 0.0
+    """The extent of points on paper (mm) at a scale (units for one mm); empty without points."""
+    spots = list(points) or [0j]
     x, y = [z.real for z in spots], [z.imag for z in spots]
     return (max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm
 
 
 def least_scale(extent: Rectangle, room: Rectangle) -> float:
-    """The scale at which an extent just fits a room.
-
-    Parameters
-    ----------
-    extent : width and height of the content (m, m/s, m/s2, N)
-    room : width and height on paper (mm)
-
-    Returns
-    -------
-    the value of one mm of paper (m, m/s, m/s2, N)
-    """
+    """The scale at which an extent (m, m/s, m/s2, N) just fits a room (mm): the value of one mm of paper."""
     return max(extent[0] / room[0], extent[1] / room[1])
 
 
 def fitting_scale(extent: Rectangle, room: Rectangle, units: float) -> float:
-    """The finest scale of the series at which an extent fits the room; 1 if it has no size.
-
-    Parameters
-    ----------
-    extent, room : as in `least_scale`
-    units : the number of units of the scale in one SI unit
-    """
+    """The finest scale of the series at which an extent fits the room, as in `least_scale`, in the unit of which
+    ``units`` are one SI unit; 1 if it has no size."""
     least = least_scale(extent, room) * units
-    if not math.isfinite(least) or least <= 0.0:
-        return 1.0
-    return next_of_series(least)
+    return next_of_series(least) if math.isfinite(least) and least > 0.0 else 1.0
 
 
 @dataclass(frozen=True)

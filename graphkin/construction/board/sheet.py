@@ -60,14 +60,6 @@ Remarkable = Literal[
 ]  # fmt: skip
 
 
-_GAPS: Mapping[Remarkable, tuple[str, ...]] = {
-    "sharp crossing": ("result",), "off the sheet": ("result",), "zero vector": ("symbol",), "magnified": ("links",),
-    "short arm": ("links", "point", "other"), "parallel legs": ("first", "second"), "at contact": ("contact",),
-    "at pitch curve": ("point",),
-}  # fmt: skip
-"""What a remark is said of, as the gaps of its sentence; "size" is a further one."""
-
-
 @dataclass(frozen=True)
 class Remark(OnPaper):
     """A possible remark on the construction: whether it ``holds`` depends on the scale of the figure.
@@ -80,7 +72,7 @@ class Remark(OnPaper):
         reading a trial polygon's gap moves end points by a multiple of it; "parallel legs": two legs of a link leave it
         free along one direction, their special point lies at infinity; "at contact", "at pitch curve": a sliding
         contact is drawn at the contact itself, or as a pin on the pitch curve, not by its replacement
-    of : the thing found there, or its subject; points by name
+    of : the thing found there, or its subject, as the gaps of its sentence; points by name
     size : the sine of the angle of a sharp crossing, the factor of magnification
     mm : the length of a vector or an arm, or the distance of a crossing
     finds : the quantity that a sharp crossing finds, of a place its velocity
@@ -88,7 +80,7 @@ class Remark(OnPaper):
 
     diagram: DiagramName
     key: Remarkable
-    of: tuple[str | Symbol | Phrase, ...]
+    of: Mapping[str, str | Symbol | Phrase]
     size: float = 0.0
     mm: float = 0.0
     finds: Symbol | None = None
@@ -111,8 +103,7 @@ class Remark(OnPaper):
     def phrase(self) -> Phrase:
         """The remark as a phrase; of a crossing with its angle, arcsin of the size (deg), of others with their size or
         length."""
-        named = (PointNames((of,)) if isinstance(of, str) else of for of in self.of)
-        gaps: dict[str, object] = dict(zip(_GAPS[self.key], named, strict=True))
+        gaps: dict[str, object] = {gap: PointNames((of,)) if isinstance(of, str) else of for gap, of in self.of.items()}
         if "size" in gaps_of(self.key):
             angle = math.degrees(math.asin(self.size)) if self.key == "sharp crossing" else 0.0
             gaps["size"] = f"{angle or self.size or self.mm:.2g}"
@@ -365,11 +356,6 @@ class Sheet:
             drawn[step.diagram].update({s.symbol: s for s in step.vectors})
         return drawn
 
-    @cached_property
-    def spans(self) -> Mapping[DiagramName, Mapping[Symbol, complex]]:
-        """All vectors of each diagram by symbol, from their tails to their tips (mm)."""
-        return {diagram: {s: v.span for s, v in vectors.items()} for diagram, vectors in self.vectors.items()}
-
     def placing(self, *reasons: Reason) -> Iterator[PlaceStep]:
         """The steps that place the mechanism for some reasons."""
         return (step for step in self.steps if isinstance(step, PlaceStep) and step.reason in reasons)
@@ -429,8 +415,8 @@ class Sheet:
         pairs = ((self.extents[name], self.scales.of(name)) for name in DIAGRAMS)
         return tuple((width / per, height / per) for (width, height), per in pairs)
 
-    def scales_for(self, room: Room) -> Scales:
-        """The finest scales of the series at which it fits a room."""
+    def scales_for(self, room: Room | None) -> Scales:
+        """The finest scales of the series at which it fits a room; without one the scene's own if it gives them."""
         return chosen_scales(self.scene, self.extents, room)
 
 
@@ -474,7 +460,7 @@ def without_residues(sheet: Sheet) -> Sheet:
             return replace(step, value=0.0) if step.symbol in zero else step
         return replace(step, mm=0.0) if isinstance(step, VectorStep) and step.symbol in zero else step
 
-    noticed = (replace(r, mm=0.0) if r.key == "zero vector" and r.of[0] in zero else r for r in sheet.noticed)
+    noticed = (replace(r, mm=0.0) if r.of.get("symbol") in zero else r for r in sheet.noticed)
     return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), rates=rates)
 
 
@@ -577,8 +563,8 @@ class Board:
         return True
 
     def notice(
-        self, diagram: DiagramName, key: Remarkable, *of: str | Symbol | Phrase, size: float = 0.0, mm: float = 0.0,
-        finds: Symbol | None = None,
+        self, diagram: DiagramName, key: Remarkable, size: float = 0.0, mm: float = 0.0, finds: Symbol | None = None,
+        **of: str | Symbol | Phrase,
     ) -> None:  # fmt: skip
         """Note a possible remark, for this scale or another."""
         self.noticed.append(Remark(diagram, key, of, size, mm, finds))
@@ -595,6 +581,6 @@ class Board:
         d, e = self.instrument.direction(d), self.instrument.direction(e)
         at = self.instrument.crossing(what, p, d, q, e)
         finds = what if isinstance(what, Symbol) else Symbol("v", PointRef(what))
-        self.notice(diagram, "sharp crossing", what, size=abs(cross(d, e)), finds=finds)
-        self.notice(diagram, "off the sheet", what, mm=max(abs(at - p), abs(at - q)))
+        self.notice(diagram, "sharp crossing", result=what, size=abs(cross(d, e)), finds=finds)
+        self.notice(diagram, "off the sheet", result=what, mm=max(abs(at - p), abs(at - q)))
         return at

@@ -504,18 +504,13 @@ class RateStep(Step):
         return sense_of(self.value)
 
     @property
-    def linked(self) -> object:
-        """The links in a list."""
-        return listed(self.links)
-
-    @property
     def bar(self) -> PointNames:
         """The letters of the bar."""
         return PointNames(self.points, bar=True)
 
     def gap(self, name: str) -> object:
         """The value of a gap in its sentence: an argument, or a rate in figures."""
-        return self._in_figures[name] if name in _IN_FIGURES else super().gap(name)
+        return self._in_figures[name] if name in self._in_figures else super().gap(name)
 
     @property
     def _in_figures(self) -> Mapping[str, str]:
@@ -535,9 +530,6 @@ class RateStep(Step):
                 return {"per": printed(per), "product": printed(product(on_paper(self.mm), per))}
         carried = min(MOST - 1, figures(on_paper(self.mm))) if self.mm else MOST - 1
         return {"told": printed(computed(abs(self.value), carried))}
-
-
-_IN_FIGURES = {"known", "sign", "between", "told", "signed", "per", "product"}
 
 
 Cause: TypeAlias = Step | Phrase

@@ -213,7 +213,7 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
     _draw_contours(plot, order, group)
     if order == "velocity":
         for _, first, second in plan.parallel:
-            plot.board.notice("mechanism", "parallel legs", first, second)
+            plot.board.notice("mechanism", "parallel legs", first=first, second=second)
     if plan.tried:
         trials = TrialPolygons(plot, order, group, plan).with_assumptions()
         plot.plans[group] = trials.plan
@@ -575,7 +575,7 @@ class TrialPolygons:
             plot.do(RateTrial("trial", "polygon", order, tuple(strokes), trial=number, assumed=assumption, far=far))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
         places = [[end[ref] for ref in shared] for end in ends]
-        plot.board.notice(order, "magnified", self.group.named, size=magnified(places, gaps))
+        plot.board.notice(order, "magnified", links=self.group.named, size=magnified(places, gaps))
         true = self._as_noted(rates, gaps)
         edges = [edge for edge, _ in plan.open_ends]
         closing = tuple(edge.link or (edge.slide.key if edge.slide else "") for edge in edges)

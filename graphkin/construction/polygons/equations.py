@@ -323,7 +323,7 @@ def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: in
     assert part.span is not None
     size, tip = abs(part.span), plot.board.instrument.laid_off(at, part.span)
     vector = Vector(part.symbol, at, tip, part.role)
-    plot.board.notice(order, "zero vector", part.symbol, mm=size)
+    plot.board.notice(order, "zero vector", symbol=part.symbol, mm=size)
     plot.record(vector, VectorStep("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size,
                                    mm=size, direction=part.direction))  # fmt: skip
     return tip
@@ -337,7 +337,7 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
             if part.span is None:
                 vector = Vector(part.symbol, tail, plot.own_values.found(part.symbol, tail, tip), part.role)
                 span = vector.tip - tail
-                plot.board.notice(order, "zero vector", part.symbol, mm=abs(span))
+                plot.board.notice(order, "zero vector", symbol=part.symbol, mm=abs(span))
                 mm = plot.found_mm(part.symbol, span)
                 plot.record(vector, VectorStep("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
                 at = tip
@@ -548,7 +548,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: RelativeMotion, slide: Pair
         rule = Size("over radius", factor=symbol_of(plot, "v", edge), radius=1.0 / abs(bends))
         inward = 1j * sense * (1 if bends > 0.0 else -1)
         parts.append(_term(plot, edge, "an", inward, speed**2 * abs(bends) / per, turned, rule))
-        plot.board.notice("acceleration", "at pitch curve", edge.start.point)
+        plot.board.notice("acceleration", "at pitch curve", point=edge.start.point)
     return [*parts, _term(plot, edge, "ar", sense, mm, edge.direction, size)]
 
 
@@ -561,7 +561,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     """
     link, other_link = (ref.link for ref in edge.labels)
     touch = plot.touch(edge.contact)
-    plot.board.notice(order, "at contact", touch.name)
+    plot.board.notice(order, "at contact", contact=touch.name)
     normal, tangent, per = touch.normal, -1j * touch.normal, plot.per[order]
     if order == "velocity":
         return [_term(plot, edge, "v", tangent, None, edge.direction)]

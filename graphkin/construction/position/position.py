@@ -145,10 +145,10 @@ def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, intersection: Inte
     whose, outer_first, outer_second = dyad.named, dyad.outer_first, dyad.outer_second
     point, turned = dyad.inner.point, Symbol("omega", link=(dyad.links or dyad.members)[0])
     result, finds = (point, Symbol("v", PointRef(point))) if dyad.inner.turns else (whose, turned)
-    board.notice("mechanism", "sharp crossing", result, size=intersection.sharpness, finds=finds)
+    board.notice("mechanism", "sharp crossing", result=result, size=intersection.sharpness, finds=finds)
     if not dyad.inner.turns and outer_first.turns and outer_second.turns:
         arm = abs(paper.point(outer_first.b, outer_first.point) - paper.point(outer_second.b, outer_second.point))
-        board.notice("mechanism", "short arm", whose, outer_first.point, outer_second.point, mm=arm)
+        board.notice("mechanism", "short arm", mm=arm, links=whose, point=outer_first.point, other=outer_second.point)
     which = "one assembly" if dyad.is_two_lines else f"{dyad.kind} {index}"
     first, inner, last = (pair.key for pair in dyad.pairs)
     board.assembly[whose] = Phrase(which, first=first, inner=inner, last=last)
