@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from graphkin.construction.board.proportional_division import divide, magnified
 from graphkin.construction.board.sheet import Rate
 from graphkin.construction.board.steps import (
-    ORDERS,
     Bar,
     Direction,
     FarPoint,
@@ -100,10 +99,10 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     motion along its guide."""
     name, driver, pair = element.link, element.driver, element.pair
     mm = _roll(plot, order, element) if driver.rolls else 0.0
-    rate = plot.given[driver.key][ORDERS.index(order)]
+    rate = plot.given[order, driver.key]
     if isinstance(driver, Driver) and driver.turns:
         other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
-        base = added_up(plot.given[step.key][ORDERS.index(order)] * (1 if forth else -1)
+        base = added_up(plot.given[order, step.key] * (1 if forth else -1)
                         for step, forth in element.ahead if isinstance(step, Driver)
                         ) if element.ahead else plot.rates[order][other].value
         plot.rates[order][name] = Rate(name, base + sign * rate, mm=mm, plan=driver.rolls)
@@ -132,9 +131,8 @@ def _roll(plot: Polygons, order: Order, element: Driven) -> float:
 
     driver = element.driver
     coordinate = ("angle", element.link) if driver.turns else ("travel", driver.key)
-    which = ORDERS.index(order)
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
-    turns += [(*d.links, d.values[1 + which]) for d in plot.structure.scene.drivers if d.turns]
+    turns += [(*d.links, plot.given[order, d.key]) for d in plot.structure.scene.drivers if d.turns]
     known = {name: rate.value for name, rate in plot.rates[order].items()}
     value, mm, steps = rolled(
         plot.structure, plot.trains, order, coordinate, known, lambda key: _travel_rate(plot, order, key), turns,
@@ -142,17 +140,15 @@ def _roll(plot: Polygons, order: Order, element: Driven) -> float:
     )  # fmt: skip
     for step in steps:
         plot.do(step)
-    had = plot.given.get(driver.key, (0.0, 0.0))
-    plot.given[driver.key] = (value, had[1]) if which == 0 else (had[0], value)
+    plot.given[order, driver.key] = value
     return mm
 
 
 def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
     """The rate of a sliding link along its guide (m/s, m/s2), if it is known: given, or read from the polygon as the
     component along the guide of its motion relative to the coincident point; the Coriolis term is square to it."""
-    given = next((d for d in plot.structure.scene.drivers if d.key == key and not d.turns), None)
-    if given is not None:
-        return given.values[1 + ORDERS.index(order)]
+    if any(driver.slide == key for driver in plot.structure.scene.drivers):
+        return plot.given[order, key]
     slide = plot.structure.slide(key)
     if not {slide.a, slide.b} <= plot.rates[order].keys():
         return None
@@ -453,7 +449,7 @@ class TrialPolygons:
                 plot.rates[self.order][name] = Rate(name, value)
                 spread(plot, self.order, name, self.group)
             else:
-                plot.tried[self.order, name] = value
+                plot.given[self.order, name] = value
 
     def polygon(self, number: int, rates: Sequence[float]) -> Polygons:
         """The polygon that follows from some rates."""

@@ -71,7 +71,7 @@ def turned(plot: Polygons, order: Order | None, group: Dyad | LargerGroup) -> li
     pairs = [(p.a, p.b, 0.0) for p in whole.all_pairs if not p.turns]
     for d in whole.drivers:
         if d.turns:
-            pairs.append((d.relative_to, d.link, plot.given[d.key][ORDERS.index(order)] if order else 0.0))
+            pairs.append((d.relative_to, d.link, plot.given[order, d.key] if order else 0.0))
     for held, rest in plot.contours.get(group, ()) if isinstance(group, LargerGroup) else ():
         seen = plot.seen[held].rates[order] if order and held in plot.seen else {}
         pairs += [(held, n, seen[n].value if n in seen else 0.0) for n in rest.members if not order or n in seen]
@@ -86,14 +86,7 @@ def known_turns(plot: Polygons, order: Order, group: Dyad | LargerGroup) -> None
 
 
 def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float = 0.0) -> None:
-    """The rate of a link that turns as a known one does, or faster by ``add``.
-
-    Parameters
-    ----------
-    order : "velocity" or "acceleration"
-    known, name : the link whose rate is known, and the link that turns with it
-    add : the rate of the second relative to the first (rad/s, rad/s2)
-    """
+    """The rate of a link that turns as a known one does, or faster by ``add`` (rad/s, rad/s2)."""
     rate = plot.rates[order][known]
     plot.rates[order][name] = changed(rate, link=name, value=rate.value + add, same_as=rate.same_as or known)
 
@@ -104,13 +97,12 @@ def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], k
 
     Parameters
     ----------
-    order : "velocity" or "acceleration"
-    link, links : the link whose rate is found; the known link, and that of the two which turns relative to the other
+    links : the known link, and that of the two which turns relative to the other
     known, add : the rate of the known link, and that between the two (rad/s, rad/s2)
     """
-    if links[0] == plot.ground:
-        return
-    plot.do(RateStep("read", "sum of rates", order, kind=RATE[order], link=link, links=links, value=known, other=add))
+    if links[0] != plot.ground:
+        step = RateStep("read", "sum of rates", order, kind=RATE[order], link=link, links=links, value=known, other=add)
+        plot.do(step)
 
 
 def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) -> None:
@@ -214,14 +206,13 @@ def _close(plot: Polygons, order: Order, end: PointRef, side: Side, equation: in
     at = plot.end(order, side[0][0].start)
     if not _open(side):
         for edge, known in side:
-            for part in known:
-                at = _lay_off(plot, order, part, at, equation)
+            at = _lay_off(plot, order, known, at, equation)
             plot.reach(order, edge.end, at, equation)
         return
     open_at = parts.index(_open(side)[0])
     for part in parts[:open_at]:
         drawn = plot.drawn[order].get(part.symbol)
-        at = drawn.tip if drawn is not None else _lay_off(plot, order, part, at, equation)
+        at = drawn.tip if drawn is not None else _lay_off(plot, order, [part], at, equation)
     after = added_up((part.span for part in parts[open_at + 1 :] if part.span is not None), 0j)
     _fill(plot, order, side, plot.end(order, end) - after, at, equation)
 
@@ -235,12 +226,9 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
     for side in sides:
         parts = _parts(side)
         open_at = parts.index(_open(side)[0])
-        at = plot.end(order, side[0][0].start)
-        for part in parts[:open_at]:
-            at = _lay_off(plot, order, part, at, equation)
+        before = _lay_off(plot, order, parts[:open_at], plot.end(order, side[0][0].start), equation)
         # known terms behind the unknown one are added first, and put in their place afterwards
-        before = at
-        at = _carry(plot, order, parts[open_at + 1 :], at, equation)
+        at = _carry(plot, order, parts[open_at + 1 :], before, equation)
         lines.append((at, parts[open_at]))
         carried.append(at - before)
     whole = plot.symbol(letter(order), end)
@@ -318,15 +306,16 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
         _rate(plot, order, bar, vector, group)
 
 
-def _lay_off(plot: Polygons, order: Order, part: Term, at: complex, equation: int | None) -> complex:
-    """Lay off a known vector."""
-    assert part.span is not None
-    size, tip = abs(part.span), plot.board.instrument.laid_off(at, part.span)
-    vector = Vector(part.symbol, at, tip, part.role)
-    plot.board.notice(order, "zero vector", symbol=part.symbol, mm=size)
-    plot.record(vector, VectorStep("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size,
-                                   mm=size, direction=part.direction))  # fmt: skip
-    return tip
+def _lay_off(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, equation: int | None) -> complex:
+    """Lay off known vectors, each from the tip of the one before; returns the last tip."""
+    for part in parts:
+        assert part.span is not None
+        tail, at, mm = at, plot.board.instrument.laid_off(at, part.span), abs(part.span)
+        plot.board.notice(order, "zero vector", symbol=part.symbol, mm=mm)
+        step = VectorStep("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=mm,
+                          direction=part.direction)  # fmt: skip
+        plot.record(Vector(part.symbol, tail, at, part.role), step)
+    return at
 
 
 def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex, equation: int | None) -> None:
@@ -486,7 +475,7 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: RelativeMotion, join
     arm = plot.places[edge.end.point] - plot.places[hinge]
     # whether the driver turns the end from the start
     sense = 1 if (joint.driver.link == joint.b) == edge.forward else -1
-    omega, alpha = (sense * rate for rate in plot.given[joint.driver.key])
+    omega, alpha = (sense * plot.given[each, joint.driver.key] for each in ORDERS)
     name, both = (hinge, edge.end.point), (joint.b, joint.a)
     length, square = plot.length(arm, name), 1j * unit(arm)
     if order == "velocity":
@@ -533,7 +522,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: RelativeMotion, slide: Pair
     """Both sides of a sliding pair: v_r and a_r along the guide, of given or unknown size, and 2 omega v_r of Coriolis
     square to it, omega being the guide's; a curved guide adds v_r^2 / rho towards its centre of curvature."""
     sense = slide.along(plot.paper.poses) * (1 if edge.forward else -1)
-    given, per = _given(plot, slide.key, order), plot.per[order]
+    given, per = plot.given.get((order, slide.key)), plot.per[order]
     mm, size = (None, None) if given is None else (given / per, GIVEN)
     if order == "velocity":
         return [_term(plot, edge, "v", sense, mm, edge.direction, size)]
@@ -610,11 +599,3 @@ def _rolling_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
         radius = abs(1.0 / (bends[1] - bends[0]))
         size, written = Size("rolling curves", links, curves=pair, hollow=inside, radius=radius), edge.direction
     return [_term(plot, edge, "a" if plot.fixed(edge.start) else "an", along, abs(length), written, size)]
-
-
-def _given(plot: Polygons, key: str, order: Order) -> float | None:
-    """The rate of a driven slide, or of a slide moved at a trial rate (m/s, m/s2)."""
-    if (order, key) in plot.tried:
-        return plot.tried[order, key]
-    rates = plot.given.get(key)
-    return None if rates is None else rates[0 if order == "velocity" else 1]

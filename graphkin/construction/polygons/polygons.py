@@ -105,13 +105,13 @@ class Polygons:
     tiny : a distance of points that is none (mm)
     ends, rates, drawn : end points (mm), measured rates, and vectors
     own_values : a person's own values in place of drawn ones
-    given : rate and second rate by the driver's key (SI); of rolling links once they are read
+    given : the rates of each order by the driver's key (SI), of rolling links once they are read; in a trial those of
+        sliding pairs that are assumed
     at_contacts : whether sliding contacts are drawn themselves, instead of their replacements
     chains, plans : the construction of each group, found once for all drawings of a task
     contours : for each group its links held still, each with the rest on it
     special, pitch_points : the special points, and the letters where wheels of larger groups roll on each other
     believed : links whose rates are own values, not measured
-    tried : rates of sliding pairs moved at a trial speed (m/s, m/s2)
     trains : velocity plans of rolling links
     trial : the number of the trial polygon that this is; 0 for none
     held, part_of : the link that is held still, "" for the frame, and the group whose it is
@@ -129,7 +129,7 @@ class Polygons:
     rates: dict[Order, dict[str, Rate]]
     drawn: dict[Order, dict[Symbol, Vector]]
     own_values: OwnValues = AS_DRAWN
-    given: dict[str, tuple[float, float]] = field(default_factory=dict)
+    given: dict[tuple[Order, str], float] = field(default_factory=dict)
     at_contacts: bool = False
     chains: dict[Dyad, VectorChain] = field(default_factory=dict)
     plans: dict[LargerGroup, GroupPlan] = field(default_factory=dict)
@@ -137,7 +137,6 @@ class Polygons:
     special: set[str] = field(default_factory=set)
     pitch_points: dict[str, str] = field(default_factory=dict)
     believed: set[tuple[Order, str]] = field(default_factory=set)
-    tried: dict[tuple[Order, str], float] = field(default_factory=dict)
     trains: list[TrainPlan] = field(default_factory=list)
     trial: int = 0
     held: str = ""
@@ -152,7 +151,7 @@ class Polygons:
         links = dict(structure.links)
         places = {point: paper.point(name, point) for name in paper.poses for point in links[name].points}
         size = max((abs(z - w) for z in places.values() for w in places.values()), default=1.0)
-        given = {d.key: d.values[1:] for d in structure.drivers}
+        given = {(order, d.key): d.values[i] for d in structure.drivers for i, order in enumerate(ORDERS, 1)}
         begun = DrawnMotion.begun(links, structure.scene.frame.name)
         return cls(board, structure, paper, scales, links, places, 1e-11 * size, *begun, own_values, given)
 
@@ -235,7 +234,7 @@ class Polygons:
 
     def fixed(self, ref: PointRef) -> bool:
         """Whether a node is a point of the frame."""
-        return ref.link == self.ground or (not ref.link and ref.point in self.links[self.ground].points)
+        return self.on(ref, self.ground)
 
     def touch(self, name: str) -> Touch:
         """The place of a contact, or of the mesh of wheels."""
@@ -328,8 +327,7 @@ class Polygons:
         ends = self.ends[order]
         if ref in ends or self.fixed(ref):
             return
-        owners = [ref.link] if ref.link else [n for n, k in self.links.items() if ref.point in k.points]
-        name = next(n for n in owners if n in self.rates[order] and any(self.on(r, n) for r in ends))
+        name = next(n for n in self.holders(ref) if n in self.rates[order] and any(self.on(r, n) for r in ends))
         here = self.places[ref.point]
         refs = [r for r in ends if self.on(r, name)]
         if name in self.still:
@@ -388,6 +386,10 @@ class Polygons:
         """Whether a node is a point of a link."""
         return ref.link == name or (not ref.link and ref.point in self.links[name].points)
 
+    def holders(self, ref: PointRef) -> list[str]:
+        """The links that have a point, or the link of the point."""
+        return [ref.link] if ref.link else [name for name, link in self.links.items() if ref.point in link.points]
+
     def _by_rates(self, order: Order, start: PointRef, end: PointRef, name: str) -> tuple[Term, ...]:
         """Draw from one end point to another of the same link by its measured rates, part by part."""
         names = end.point, start.point
@@ -433,7 +435,7 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
         of, to = (node(plot.links, ref.point, ref.link) if ref and ref.link else ref for ref in (symbol.of, symbol.to))
         assert of is not None
         rated = plot.rates["velocity"].keys()
-        if not all(ref.point in plot.places and rated & _holders(plot, ref) for ref in (of, to) if ref):
+        if not all(ref.point in plot.places and rated & plot.holders(ref) for ref in (of, to) if ref):
             continue
         tail, tip = plot.end(order, to) if to else 0j, plot.end(order, of)
         role = PARTS.get(symbol.kind) or ("relative" if to else "resultant")
@@ -453,11 +455,6 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
         plot.do(VectorStep("join", "asked", order, (vector,), symbol=symbol))
 
 
-def _holders(plot: Polygons, ref: PointRef) -> list[str]:
-    """The links that have a point, or the link of the point."""
-    return [ref.link] if ref.link else [name for name, link in plot.links.items() if ref.point in link.points]
-
-
 def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> complex:
     """The direction of the bar between two points, or of the normal at a rolling contact."""
     arm = plot.places[of.point] - plot.places[to.point]
@@ -473,7 +470,7 @@ def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> comp
 def _pivot(plot: Polygons, of: PointRef, symbol: Symbol) -> PointRef:
     """The point of the frame on the same link."""
     ground = plot.links[plot.ground].points
-    points = (point for name in _holders(plot, of) for point in plot.links[name].points)
+    points = (point for name in plot.holders(of) for point in plot.links[name].points)
     pivot = next((point for point in points if point in ground and point != of.point), None)
     if pivot is None:
         wanted = Phrase("turns about no fixed point write a with", name=of, symbol=symbol)
