@@ -37,14 +37,14 @@ from graphkin.construction.board.steps import (
     TrialPositions,
     TrialRow,
 )
-from graphkin.construction.position.links_on_paper import PlacedLinks, Steps, drive, meet, walk
+from graphkin.construction.position.links_on_paper import PlacedLinks, Steps, drive, meet, stuck, walk
 from graphkin.construction.position.reduced_mechanism import ReducedMechanism, TrialDrawing, best_first, fitted
-from graphkin.errors import Problem, Unsolvable
+from graphkin.errors import Unsolvable
 from graphkin.plane import Pose, Poses
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Driven, Dyad
-from graphkin.words import Phrase, links_named
+from graphkin.words import links_named
 
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
@@ -53,8 +53,10 @@ AGAIN = 2  # times that a trial drawing is drawn which does not close by hands t
 SHORTEST = 1.0 / 16  # part of the way by which links known already are moved to where hands put them, at least
 BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
 DIVISIONS, UNSEEN = 4, 0.02  # divisions at most, until so little (mm, degrees) is missed
+CHANGE = 1e-6  # of a trial value, to see how the gaps change at the last trial
 STEP = 0.06  # from trial to trial of several drivers (rad, or the mechanism's size), as many parts of it before
 GRID = 360  # trial values looked at over a turn
+MOST_IMPROVED = 200  # trial drawings on a grid of several trial drivers, those with the smallest gaps
 COARSE = 12  # values of each of several trial drivers
 Branch = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
 LEAST = 1e-3  # of the largest singular value: trials that tell less about one of what is moved are not divided
@@ -115,17 +117,13 @@ def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechani
     board = replace(reduced.opened(so_far, [float(v) for v in values]), instrument=EXACT)
     for element in reduced.elements:
         if isinstance(element, Driven):
-            pose, told_here = drive(board, element)
+            pose, laid = drive(board, element)
             axis = cmath.phase(pose.axis)  # found by trial, whatever it was tried against
-            told_here = tuple(
-                replace(step, value=axis, base="") if isinstance(step, PlaceStep) and step.reason == "angle" else step
-                for step in told_here
-            )
+            steps.append(replace(laid, value=axis, base="") if laid.reason == "angle" else laid)
         else:
             intersection = meet(board, element)
             best = intersection.nearest(poses)
-            told_here = intersection.steps(best) if best is not None else ()
-        steps += told_here
+            steps += intersection.steps(best) if best is not None else ()
         board.poses.update({name: poses[name] for name in element.members})
     return tuple(steps)
 
@@ -146,12 +144,8 @@ def _fit(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
     start = {**{name: guess[name] for name in reduced.group.members}, **there.poses}
     *_, (part, fit_poses) = (0.0, start), *walk(near, start, 0.0, 1.0, 1.0, SHORTEST)
     if part < 1.0:
-        raise _refused(reduced, Phrase("no trial position closes this group here"))
+        raise stuck("not assembled", reduced.group.named, "no trial position closes this group here")
     return {name: pose for name, pose in fit_poses.items() if name in reduced.group.members}
-
-
-def _refused(reduced: ReducedMechanism, said: Phrase) -> Unsolvable:
-    return Unsolvable("not assembled", Problem(reduced.group.named, said))
 
 
 def _between(start: Pose, end: Pose, part: float) -> Pose:
@@ -161,41 +155,34 @@ def _between(start: Pose, end: Pose, part: float) -> Pose:
 
 
 def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> None:
-    """The last trial by erring hands, its gap, and the drawing that follows from it."""
+    """The last trial by erring hands, its gaps as they find and read them, and the drawing that follows from these by
+    their change with the trial values."""
     poses = {**paper.poses, **_fit(paper, reduced, guess)}
     values = np.array(reduced.values(poses, paper.mm))
+
+    def drawn(said: str) -> TrialDrawing:
+        drawing = TrialDrawing.of(reduced, paper, poses, values)
+        if drawing is None:
+            raise stuck("not assembled", reduced.group.named, said)
+        return drawing
+
     if reduced.trial:
-        at, slopes = _by_hand(paper, reduced, poses, values)
-        values = values - np.linalg.solve(slopes, at)
-    last = TrialDrawing.of(reduced, paper, poses, values)
-    if last is None:
-        raise _refused(reduced, Phrase("the last trial drawing does not close"))
+        trial, size = drawn("a trial drawing does not close"), paper.mm * reduced.structure.scene.size
+        gaps = [
+            gap if constraint.is_angle else paper.instrument.read(gap * size) / size
+            for gap, constraint in zip(trial.gaps, reduced.removed, strict=True)
+        ]
+        exact, slopes = replace(paper, instrument=EXACT, pricked={}), []
+        for change in CHANGE * np.eye(len(values)):
+            low, high = (TrialDrawing.of(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
+            if low is None or high is None:
+                raise stuck("dead point", links_named(reduced.group.links), "the trial drawing is at a dead point")
+            slopes.append((high.gaps - low.gaps) / (2 * CHANGE))
+        values = values - np.linalg.solve(np.array(slopes).T, np.array(gaps))
+    last = drawn("the last trial drawing does not close")
     paper.pricked.update(last.drawn.pricked)
     paper.poses.update(reduced.put_back(last.drawn))
     paper.settle([r.left_out for r in reduced.removed if r.left_out])
-
-
-def _by_hand(
-    paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """The gaps of a trial drawing as hands find and read them, and their change with the trial values."""
-    drawing = TrialDrawing.of(reduced, paper, poses, values)
-    if drawing is None:
-        raise _refused(reduced, Phrase("a trial drawing does not close"))
-    size = paper.mm * reduced.structure.scene.size
-    gaps = [
-        gap if constraint.is_angle else paper.instrument.read(gap * size) / size
-        for gap, constraint in zip(drawing.gaps, reduced.removed, strict=True)
-    ]
-    exact = replace(paper, instrument=EXACT, pricked={})
-    step, slopes = 1e-6, []
-    for change in step * np.eye(len(values)):
-        low, high = (TrialDrawing.of(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
-        if low is None or high is None:
-            where = links_named(reduced.group.links)
-            raise Unsolvable("dead point", Problem(where, "the trial drawing is at a dead point"))
-        slopes.append((high.gaps - low.gaps) / (2 * step))
-    return np.array(gaps), np.array(slopes).T
 
 
 # -- what is drawn and measured in trial positions ---------------------------------------------------------------------
@@ -211,7 +198,7 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
         (r.left_out, r.other_side, r.turned) for r in reduced.removed
         if r.left_out and r.slides and any(r.left_out in d.links for d in angles)
     )  # fmt: skip
-    driven, left_out = tuple(d.key for d in reduced.trial), tuple(n for n in reduced.left_out if n not in rolling)
+    driven, left_out = tuple(d.key for d in reduced.trial), tuple(r.name for r in reduced.removed if r.rolling is None)
     group = reduced.group
     positions = TrialPositions(
         "trial", "positions", strokes=strokes, links=group.links, group=group.named, driven=driven, left_out=left_out,
@@ -361,29 +348,15 @@ def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tup
 
 def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
     """Every position of the trial drivers and every assembly of the trial dyads at which the left-out part fits."""
-    if len(reduced.trial) == 1:
-        yield from fits_between(reduced, known, *_span(reduced, 0))
-    else:
-        yield from _on_a_grid(reduced, known)
-
-
-def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
-    """The range of a trial driver: a turn, or four sizes of the mechanism."""
-    return (-math.pi, math.pi) if reduced.trial[i].turns else (-2.0, 2.0)
-
-
-def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
-    """Several trial drivers: each place of a grid improved."""
-    axes = []
-    for i in range(len(reduced.trial)):
-        start, end = _span(reduced, i)
-        axes.append([start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)])
-    trials = []
-    for values in product(*axes):
-        for branches, gaps in _gaps(reduced, known, values).items():
-            trials.append((max(abs(g) for g in gaps), values, branches))
-    trials.sort(key=lambda trial: trial[0])
-    for _, values, branches in trials[:200]:
+    spans = [_span(driver) for driver in reduced.trial]
+    if len(spans) == 1:
+        yield from fits_between(reduced, known, *spans[0])
+        return
+    # of several drivers each place of a grid is improved
+    axes = [[start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)] for start, end in spans]
+    trials = [(max(map(abs, gaps)), values, branches)
+              for values in product(*axes) for branches, gaps in _gaps(reduced, known, values).items()]  # fmt: skip
+    for _, values, branches in sorted(trials, key=lambda trial: trial[0])[:MOST_IMPROVED]:
         paper = _drawn(reduced, known, values, branches)
         if paper is None:
             continue
@@ -392,11 +365,16 @@ def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[s
             yield near
 
 
+def _span(driver: Driver) -> tuple[float, float]:
+    """The range of a trial driver: a turn, or four sizes of the mechanism."""
+    return (-math.pi, math.pi) if driver.turns else (-2.0, 2.0)
+
+
 def fits_between(
     reduced: ReducedMechanism, known: PlacedLinks, start: float, end: float
 ) -> Iterator[dict[str, Pose]]:
     """The positions between two values of a single trial driver in which the left-out part fits."""
-    low, high = _span(reduced, 0)
+    low, high = _span(reduced.trial[0])
     parts = max(1, round(GRID * (end - start) / (high - low)))
     grid = [start + (end - start) * i / parts for i in range(parts + 1)]
     # a value is drawn once for all assemblies: where one cannot be drawn on, others often cannot either
@@ -438,26 +416,25 @@ def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]
 
 
 def each_assembly(
-    paper: PlacedLinks, elements: Sequence[Driven | Dyad], branches: Branch = (), only: Branch | None = None
+    paper: PlacedLinks, elements: Sequence[Driven | Dyad], branches: Branch = ()
 ) -> Iterator[tuple[Branch, PlacedLinks]]:
-    """Every assembly of some dyads that can be drawn, or one ``only``, with the links in it on the same paper."""
+    """Every assembly of some dyads that can be drawn, with the links in it on the same paper."""
     if not elements:
         yield branches, paper
         return
     element, *left = elements
     if isinstance(element, Driven):
         paper.poses[element.link], _ = drive(paper, element)
-        yield from each_assembly(paper, left, branches, only)
+        yield from each_assembly(paper, left, branches)
         return
     for branch, poses in enumerate(meet(paper, element).poses):
-        if only is None or only[len(branches)] == branch:
-            paper.poses.update(poses)
-            yield from each_assembly(paper, left, (*branches, branch), only)
+        paper.poses.update(poses)
+        yield from each_assembly(paper, left, (*branches, branch))
 
 
 def _drawn(
     reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float], branches: Branch
 ) -> PlacedLinks | None:
     """A trial drawing of the group; None where two loci do not meet."""
-    papers = each_assembly(reduced.opened(known, values), reduced.elements, only=branches)
-    return next((paper for _, paper in papers), None)
+    papers = each_assembly(reduced.opened(known, values), reduced.elements)
+    return next((paper for drawn, paper in papers if drawn == branches), None)

@@ -251,14 +251,13 @@ def rolled_near(structure: Structure, paper: PlacedLinks, driver: RollingRelatio
     start : the poses from which it rolls, within some turns
     guess : the poses that are expected: of several values the nearest is taken
     """
-    before, near = (replace(paper, poses=dict(poses)) for poses in (start, guess))
-    value, turns = coordinate_on_paper(structure, before, driver.coordinate), [0.0]
+    value, turns = coordinate_on_paper(structure, start, paper.mm, driver.coordinate), [0.0]
     for coordinate, factor in driver.factors:
-        here, there = (coordinate_on_paper(structure, placed, coordinate) for placed in (paper, before))
+        here, there = (coordinate_on_paper(structure, poses, paper.mm, coordinate) for poses in (paper.poses, start))
         value += factor * (here - there)
         if coordinate[0] == "angle":
             turns = [more + k * math.tau * factor for more in turns for k in range(-TURNS, TURNS + 1)]
-    wanted = coordinate_on_paper(structure, near, driver.coordinate)
+    wanted = coordinate_on_paper(structure, guess, paper.mm, driver.coordinate)
 
     def misfit(whole: float) -> float:
         far = value + whole - wanted
@@ -268,13 +267,10 @@ def rolled_near(structure: Structure, paper: PlacedLinks, driver: RollingRelatio
     return value + min(turns, key=lambda whole: (round(misfit(whole), 9), abs(whole)))
 
 
-def coordinate_on_paper(structure: Structure, paper: PlacedLinks, coordinate: Coordinate) -> float:
-    """An angle within a turn (rad), or a travel (m)."""
+def coordinate_on_paper(structure: Structure, poses: Poses, mm: float, coordinate: Coordinate) -> float:
+    """An angle within a turn (rad), or a travel (m), of links on paper of ``mm`` for one m."""
     kind, name = coordinate
-    if kind == "angle":
-        return cmath.phase(paper.poses[name].axis)
-    slide = structure.slide(name)
-    return travel(slide, paper.poses, paper.mm) / paper.mm
+    return cmath.phase(poses[name].axis) if kind == "angle" else travel(structure.slide(name), poses, mm) / mm
 
 
 # -- the links of an element -------------------------------------------------------------------------------------------
@@ -312,7 +308,7 @@ LOST = Intersection(0.0, 0.0, (), lambda _: ())
 """Loci that find nothing: an arc of no radius, lines along each other."""
 
 
-def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Steps]:
+def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, PlaceStep]:
     """Place a driven link: the angle or the travel is laid off."""
     name, driver, pair = element.link, element.driver, element.pair
     value = paper.values[driver.key]
@@ -330,13 +326,13 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Steps]:
         hinge = paper.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (paper.links[name].points[pair.point] * paper.mm), axis)
         value = value if forward else -value
-        return pose, (PlaceStep("lay off", "angle", link=name, value=value, point=pair.point, base=to),)
+        return pose, PlaceStep("lay off", "angle", link=name, value=value, point=pair.point, base=to)
     known = pair.b if name == pair.a else pair.a
     pose = across(pair, name, paper.poses[known], paper.instrument.length(value * paper.mm), paper.mm)
     start = paper.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
     end = pose.origin if name == pair.a else paper.poses[known].origin
     bar = Bar(start, end, name)
-    return pose, (PlaceStep("lay off", "travel", strokes=(bar,), pairs=(pair.key,), mm=abs(value) * paper.mm),)
+    return pose, PlaceStep("lay off", "travel", strokes=(bar,), pairs=(pair.key,), mm=abs(value) * paper.mm)
 
 
 def _arcs(gap: float, poses: list[Poses], steps: Callable[[int], Steps], cross: float | None = None) -> Intersection:

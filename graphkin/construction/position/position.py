@@ -128,7 +128,7 @@ def place(
         if erring:
             placed.append((instrument.acts, Phrase("placing", links=element.named)))
         if isinstance(element, Driven):
-            _, steps = drive(so_far, element)
+            steps: Steps = (drive(so_far, element)[1],)
         elif isinstance(element, LargerGroup):
             steps = trial_steps(paper, so_far, assembly.reduced[element])
         else:
@@ -229,7 +229,7 @@ def assembly_at(
             reduced[element] = best.rolled_from(poses, paper.mm)
         paper.poses.update({name: poses[name] for name in element.members})
     rolling = [e.rolled for e in elements if e.rolled is not None]
-    rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
+    rolled = {r.key: coordinate_on_paper(structure, paper.poses, paper.mm, r.coordinate) for r in rolling}
     return Assembly({**values, **starts, **rolled}, poses, branches, reduced)
 
 

@@ -80,14 +80,8 @@ class ReducedMechanism:
     held: Mapping[str, tuple[str, float]] = field(default_factory=dict)
 
     @property
-    def left_out(self) -> tuple[str, ...]:
-        """Names of the left-out links, drivers, or rolling pairs."""
-        return tuple(r.name for r in self.removed)
-
-    @property
     def starts(self) -> tuple[Driver, ...]:
-        """The given data of the starts of rolling links.
-        """
+        """The given data of the starts of rolling links."""
         return () if self.group in self.structure.elements else self.group.starts
 
     def rolled_from(self, poses: Poses, mm: float) -> ReducedMechanism:
@@ -402,8 +396,7 @@ class PlacedElements:
     def best(self, group: LargerGroup, known: PlacedLinks, guess: Poses) -> TrialDrawing | None:
         """The trial drawing of a group by the reduced mechanism that finds it best near a guess, which becomes the last
         that served; None where all are at dead points."""
-        last = self.last.get(group)
-        best = TrialDrawing.of(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
+        best = _best_of([self.last[group]] if group in self.last else [], known, guess)
         if best is not None and best.quality > GOOD / 2:
             return best
         best = _best_of(self.of[group], known, guess)
@@ -546,15 +539,22 @@ def fitted(
     return None if start is None else start.closed()
 
 
+def _drawn_near(
+    candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses
+) -> Iterator[TrialDrawing]:
+    """The trial drawings near a guess, from which rolling is counted, that find the group."""
+    tried = (TrialDrawing.of(reduced.rolled_from(guess, known.mm), known, guess) for reduced in candidates)
+    return (drawing for drawing in tried if drawing is not None and drawing.quality > 0.0)
+
+
 def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: Poses) -> TrialDrawing | None:
     """The trial drawing that finds the group best, or the first that finds it well; None if none can be drawn."""
     best: TrialDrawing | None = None
-    for reduced in candidates:
-        now = TrialDrawing.of(reduced.rolled_from(guess, known.mm), known, guess)
-        if now is not None and now.quality > (0.0 if best is None else best.quality):
-            best = now
-            if now.quality > GOOD:
-                break
+    for drawing in _drawn_near(candidates, known, guess):
+        if best is None or drawing.quality > best.quality:
+            best = drawing
+        if best.quality > GOOD:
+            break
     return best
 
 
@@ -565,6 +565,5 @@ def best_first(
     others."""
     placed = PlacedElements(structure, [group])
     for some in (placed.of[group], placed.further(group)):
-        tried = (TrialDrawing.of(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
-        served = [drawing for drawing in tried if drawing is not None and drawing.quality]
-        yield from (drawing.reduced for drawing in sorted(served, key=lambda drawing: -drawing.quality))
+        served = sorted(_drawn_near(some, known, guess), key=lambda drawing: -drawing.quality)
+        yield from (drawing.reduced for drawing in served)
