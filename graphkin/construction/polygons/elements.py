@@ -35,7 +35,6 @@ from graphkin.construction.board.steps import (
 from graphkin.construction.polygons.equations import (
     add_rates,
     draw_equation,
-    first_ends,
     known_turns,
     parts_of,
     same_turn,
@@ -89,7 +88,6 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
         draw_equation(plot, order, element, plot.chains[element])
     else:
         _draw_group(plot, order, element)
-        return
     for name in element.members:
         plot.complete(order, name)
 
@@ -111,9 +109,7 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     elif pair.turns:
         plot.rates[order][name] = Rate(name, rate, mm=mm, plan=driver.rolls)
     if pair.turns and name in plot.rates[order]:
-        pivot = PointRef(pair.point)
-        for end in first_ends(plot, name, pair.point):
-            draw_equation(plot, order, element, VectorChain.closing(RelativeMotion.of_link(pivot, end, name)))
+        _turn_about(plot, order, element, name, pair.point)
         return
     known = pair.b if name == pair.a else pair.a
     share_rate(plot, order, known, name)
@@ -123,6 +119,19 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
         labels, written = (PointRef(point, pair.b), PointRef(point, pair.a)), Direction("along", plot.guide_names(pair))
         edge = RelativeMotion(b, a, labels, written, slide=pair)
         draw_equation(plot, order, element, VectorChain.closing(edge if name == pair.a else edge.reversed()))
+
+
+def _turn_about(plot: Polygons, order: Order, element: Element, name: str, hinge: str) -> None:
+    """Lay off the first points of a link that turns at a known rate about a hinge, if they are not drawn yet: one of
+    its own, else those under sliding links on it."""
+    points = [PointRef(p) for p in plot.links[name].points if p != hinge]
+    slides = [s for s in plot.structure.slides if s.b == name and "/" not in name]
+    under = [node(plot.links, s.pin, name) for s in slides if s.pin in plot.places]
+    away = [n for n in (*points, *under) if abs(plot.places[n.point] - plot.places[hinge]) > plot.tiny]
+    for end in dict.fromkeys(away[:1] if any(n in points for n in away) else away):
+        if end not in plot.ends[order]:
+            arm = RelativeMotion.of_link(PointRef(hinge), end, name)
+            draw_equation(plot, order, element, VectorChain.closing(arm))
 
 
 def _roll(plot: Polygons, order: Order, element: Driven) -> float:
@@ -365,7 +374,8 @@ def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple
         if first is not None and len(first.tried) >= trials:
             far = far or first.far
         elif first is not None:
-            cost = len(first.tried), _against(first)
+            against = any(e.held and not e.forward for move in first.moves for path in move.sides for e in path)
+            cost = len(first.tried), against
             if best is None or cost < best[0]:
                 best = cost, [replace(p, contours=chosen) for p in (first, *(plans if first.tried else ()))]
         if number + 1 == MOST_WAYS or (best is not None and best[0] == (0, False)):
@@ -388,17 +398,6 @@ def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> lis
     return choices
 
 
-def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
-    """Lay off points of links that turn at known rates about hinges of the held link."""
-    for pair in (p for p in rest.pairs if p.turns and plot.ground in (p.a, p.b)):
-        name, pivot = pair.b if pair.a == plot.ground else pair.a, PointRef(pair.point)
-        if name not in plot.rates[order] or name in plot.still:
-            continue
-        for end in first_ends(plot, name, pair.point):
-            if end not in plot.ends[order]:
-                draw_equation(plot, order, rest, VectorChain.closing(RelativeMotion.of_link(pivot, end, name)))
-
-
 def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
     """Draw the contours of a group, each in its motion seen from one of its links."""
     for held, rest in plot.contours.get(group, ()):
@@ -406,7 +405,10 @@ def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
         if rest.members[0] in held_plot.rates[order]:
             continue
         spread(held_plot, order, held, rest)
-        _turn_driven(held_plot, order, rest)
+        for pair in (p for p in rest.pairs if p.turns and held in p.links):
+            name = pair.other(held)
+            if name in held_plot.rates[order] and name not in held_plot.still:
+                _turn_about(held_plot, order, rest, name, pair.point)
         _draw_group(held_plot, order, rest)
         for name in rest.members:
             held_plot.complete(order, name)
@@ -420,11 +422,6 @@ def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
         for name in (held, *rest.members):
             if name in plot.rates[order]:
                 spread(plot, order, name, group)
-
-
-def _against(plan: GroupPlan) -> bool:
-    """Whether a plan lays off a vector seen from a link in the opposite sense."""
-    return any(e.held and not e.forward for move in plan.moves for path in move.sides for e in path)
 
 
 # -- trial polygons ----------------------------------------------------------------------------------------------------

@@ -40,7 +40,6 @@ from graphkin.construction.polygons.vector_graph import (
     VectorChain,
     contacts_of,
     links_alike,
-    node,
 )
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.pairs import Pair
@@ -122,16 +121,6 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
                     if is_told:
                         add_rates(plot, order, new, (at, b), plot.rates[order][at].value, add)
                     queue.append(new)
-
-
-def first_ends(plot: Polygons, name: str, hinge: str) -> list[PointRef]:
-    """The first points of a driven link in a drawing: one of its own, else those under sliding links on it."""
-    points = [PointRef(p) for p in plot.links[name].points if p != hinge]
-    slides = [s for s in plot.structure.slides if s.b == name and "/" not in name]
-    under = [node(plot.links, s.pin, name) for s in slides if s.pin in plot.places]
-    away = [n for n in (*points, *under) if abs(plot.places[n.point] - plot.places[hinge]) > plot.tiny]
-    first = away[:1] if any(n in points for n in away) else away
-    return list(dict.fromkeys(first))
 
 
 # -- equations drawn ---------------------------------------------------------------------------------------------------

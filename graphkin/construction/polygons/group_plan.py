@@ -29,6 +29,9 @@ MOST_TRIALS = 4
 LONGEST_LEG = 3  # edges of a leg between two moving links
 OFF = 1e-9  # sine between a leg's line and the way from joint to joint, below which it is that way
 WORST = 0.05  # crossing and distance of a special point of two moving links that is still taken
+SpecialPoint = tuple[float, tuple[str, ...], tuple[Path, Path], complex]
+"""A special point that might be taken: its quality, its link or the two links that move alike there, the legs that give
+it, and its place on paper (mm)."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -163,16 +166,13 @@ class _Search:
         for path in self.all_ways(2, self.nodes):
             if best is not None and best[0][:2] < (0.0, len(path) - 1.0):
                 continue  # even a right angle makes it no better
-            two = [e for e in path if e.unknown]
-            sine = abs(cross(self.way(two[0]), self.way(two[1]))) if len(two) == 2 else 0.0
+            two = [self.way(e) for e in path if e.unknown]
+            sine = abs(cross(*two)) if len(two) == 2 else 0.0
             cost = (float(sine < 0.05), len(path) + 0.6 * self.graph.strange(path) - sine,
                     float(self.graph.order[path[0].start]))  # fmt: skip
             if sine >= FLAT and (best is None or cost < best[0]):
                 best = cost, path
-        if best is None:
-            return False
-        path = best[1]
-        return self.drawn(VectorChain.crossing(path), path)
+        return best is not None and self.drawn(VectorChain.crossing(best[1]), best[1])
 
     def legs(self, link: str) -> list[Path]:
         """Paths from known points to a link, each with one unknown that is not the link's own rate."""
@@ -189,7 +189,7 @@ class _Search:
 
     def special(self, left_out: Collection[tuple[str, str]]) -> bool:
         """Take the special point with the best crossings, of any link except these."""
-        best: tuple[float, str, tuple[Path, Path], complex] | None = None
+        choices: list[SpecialPoint] = []
         flat: tuple[str, Path, Path] | None = None
         for link in self.graph.inside:
             if ("", link) in left_out or self.turns(link) or self.nodes.intersection(self.of(link)):
@@ -205,19 +205,9 @@ class _Search:
                     continue
                 third = [self._third(leg, at) for leg in legs if leg not in (first, second)]
                 quality = sine / (1.0 + away / self.size) * max(third, default=0.5)
-                if best is None or quality > best[0]:
-                    best = quality, link, (first, second), at
-        if best is not None:
-            _, link, sides, at = best
-            letter = next(self.letters)
-            ref = self.graph.add(link, letter, at)
-            self.nodes.add(ref)
-            first, second = ((*leg, *self.on_line(leg, leg[-1].end, ref, link)) for leg in sides)
-            self.moves.append(VectorChain(ref, (first, second), link))
-            self.settle()
-            return True
-        if flat is None:
-            return False
+                choices.append((quality, (link,), (first, second), at))
+        if self.take(choices) or flat is None:
+            return bool(choices)
         link, first, second = flat
         edges = self.graph.edges[first[-1].end]
         bar = next((self.seen(e) for e in edges if e.link == link and e.end == second[-1].end), None)
@@ -226,6 +216,26 @@ class _Search:
         self.moves.append(VectorChain.closing(*first, bar, *(e.reversed() for e in reversed(second)), link=link))
         assert bar.unknown is not None
         self.known.add(bar.unknown)
+        self.settle()
+        return True
+
+    def take(self, choices: Sequence[SpecialPoint]) -> bool:
+        """Take the best of some special points, if there is one.
+
+        What a link turns by lies along the line that the leg leaves free: its size is not asked.
+        """
+        if not choices:
+            return False
+        _, links, sides, at = max(choices, key=lambda choice: choice[0])
+        *base, ref = self.graph.add_special_point(links, next(self.letters), at)
+
+        def between(leg: Path) -> Path:
+            before = [e.reversed() for start in base for e in self.on_line(leg, leg[0].start, start, links[0])]
+            return (*before, *leg, *self.on_line(leg, leg[-1].end, ref, links[-1]))
+
+        if not base:
+            self.nodes.add(ref)
+        self.moves.append(VectorChain(ref, tuple(map(between, sides)), links[-1], links[0] if base else ""))
         self.settle()
         return True
 
@@ -258,7 +268,7 @@ class _Search:
 
     def take_special_point(self, left_out: Collection[tuple[str, str]]) -> bool:
         """Take the special point of two moving links with the best crossing: they are drawn as if hinged there."""
-        best: tuple[float, tuple[str, str], tuple[Path, Path], complex] | None = None
+        choices: list[SpecialPoint] = []
         for links, legs in self._legs_between({*left_out, *self.points}).items():
             for first, second in combinations(legs, 2):
                 at, sine, away = self.crossing(first, second)
@@ -267,20 +277,9 @@ class _Search:
                 quality = sine / (1.0 + away / self.size)
                 if quality <= WORST:
                     self.far.append(FarPoint(links, away, math.asin(min(1.0, sine))))
-                elif best is None or quality > best[0]:
-                    best = quality, links, (first, second), at
-        if best is None:
-            return False
-        _, links, sides, at = best
-        letter = next(self.letters)
-        self.graph.add_special_point(links, letter, at)
-        base, ref = (PointRef(letter, name) for name in links)
-        # what both links turn by lies along the line that the leg leaves free: its size is not asked
-        paths = tuple((*(e.reversed() for e in self.on_line(leg, leg[0].start, base, links[0])), *leg,
-                       *self.on_line(leg, leg[-1].end, ref, links[1])) for leg in sides)  # fmt: skip
-        self.moves.append(VectorChain(ref, paths, links[1], links[0]))
-        self.settle()
-        return True
+                else:
+                    choices.append((quality, links, (first, second), at))
+        return self.take(choices)
 
     def _legs_between(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
         """For each two links except these the shortest path by each unknown that joins them."""
@@ -331,7 +330,8 @@ class _Search:
         left_out : special points that are not allowed, by base ("": none) and link
         """
         self.settle()
-        while not self.done():
+        # until the rate of each link is known, and a point of it
+        while not all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.graph.inside):
             if not (self.close() or self.cross() or self.reach() or self.special(left_out)) and not (
                 relative and self.take_special_point(left_out)
             ):
@@ -342,10 +342,6 @@ class _Search:
     def points(self) -> list[tuple[str, str]]:
         """The used special points, by base ("": none) and link."""
         return [(m.base, m.link) for m in self.moves if m.is_special]
-
-    def done(self) -> bool:
-        """Whether the rate of each link is known, and a point of it."""
-        return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.graph.inside)
 
     def unknowns(self) -> list[Unknown]:
         """The unknowns that can be assumed: rates of links, those next to known links first; then those of sliding

@@ -292,17 +292,13 @@ class VectorGraph:
             if a in self.owners and b in self.owners and a != b:
                 yield a, b, (PointRef(letter, link), PointRef(letter, other))
 
-    def add(self, name: str, letter: str, at: complex) -> PointRef:
-        """Add a point of a link, such as a special point."""
-        ref = self._added(PointRef(letter), name, at)
-        self._carry_over({name: ref}, at)
-        return ref
-
-    def add_special_point(self, names: tuple[str, str], letter: str, at: complex) -> None:
-        """Add the special point of two links: a point of each, whose relative motion is found first."""
-        first, second = (self._added(PointRef(letter, name), name, at) for name in names)
-        self._add(RelativeMotion(first, second, (first, second), Direction("found", ()), special=True))
-        self._carry_over({names[0]: first, names[1]: second}, at)
+    def add_special_point(self, links: Sequence[str], letter: str, at: complex) -> list[PointRef]:
+        """Add the special point of a link; or that of two, a point of each, whose relative motion is found first."""
+        refs = [self._added(PointRef(letter, name if len(links) > 1 else ""), name, at) for name in links]
+        for first, second in pairwise(refs):
+            self._add(RelativeMotion(first, second, (first, second), Direction("found", ()), special=True))
+        self._carry_over(dict(zip(links, refs, strict=True)), at)
+        return refs
 
     def _carry_over(self, refs: dict[str, PointRef], at: complex) -> None:
         """Add a special point also on the links that turn with its links."""

@@ -208,9 +208,7 @@ def assembly_at(
     if near is None:
         poses = poses_at(placed, values)
     else:
-        poses, before = near.poses, {key: near.values[key] for key in values}
-        if values != before:
-            poses = moved_to(placed, before, values, poses)
+        poses = moved_to(placed, {key: near.values[key] for key in values}, values, near.poses)
     starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
     paper = start_board(structure, 1.0 / scene.size, {**values, **starts})
     branches: dict[int, int] = {}
@@ -245,7 +243,7 @@ def poses_at(placed: PlacedElements, values: Mapping[str, float]) -> Poses:
         (problem, *_) = at_start.problems
         problem = replace(problem, wanted=Phrase("move the own position off"))
         raise Unsolvable("dead point", problem) from None
-    return poses if values == start else moved_to(placed, start, values, poses)
+    return moved_to(placed, start, values, poses)
 
 
 def cams_in_place(
@@ -278,13 +276,15 @@ def cams_in_place(
 
 def moved_to(
     placed: PlacedElements, own: Mapping[str, float], values: Mapping[str, float], poses: Poses
-) -> dict[str, Pose]:
+) -> Poses:
     """All links at driver values, followed from their poses at others (``own``), on paper of the mechanism's size.
 
     Raises
     ------
     Unsolvable : "not assembled": the motion does not reach the values; the message gives the limit
     """
+    if values == own:
+        return poses
     scene = placed.structure.scene
     first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     limits: list[Mapping[str, float]] = []
@@ -303,7 +303,7 @@ def moved_to(
         steps = walk(near, poses, 0.0, 1.0, longest, longest / 1e13, SURPRISE, longest / 64)
         part, reached = [(0.0, poses), *steps][-1]
         if part == 1.0:
-            return dict(reached)
+            return reached
         limits.append(at(part))
     raise Unsolvable("not assembled", out_of_reach(scene, dict(zip(own, goal, strict=True)), limits))
 
