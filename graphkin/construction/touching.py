@@ -40,13 +40,8 @@ class Touch:
     centres: Mapping[str, tuple[str, complex]] = field(default_factory=dict)
 
     def curvatures(self, links: Sequence[str], mm: float) -> list[float]:
-        """The curvatures of the outlines of links (1/m), positive where the centre of curvature lies on the side of the
-        normal; 0 for an outline that is not round.
-
-        Parameters
-        ----------
-        mm : mm of paper for one m
-        """
+        """The curvatures of the outlines of links (1/m) on paper of ``mm`` for one m, positive where the centre of
+        curvature lies on the side of the normal; 0 for an outline that is not round."""
         return [mm / dot(self.centres[n][1] - self.at, self.normal) if n in self.centres else 0.0 for n in links]
 
 

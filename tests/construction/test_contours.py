@@ -123,7 +123,6 @@ def test_whichever_link_of_a_contour_is_held_still_every_reading_agrees(
     name: str, links: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     usual = elements._rests_on
-    monkeypatch.setattr(elements, "_against", lambda plan: False)
     for link in links:
         monkeypatch.setattr(
             elements, "_rests_on", lambda *args, link=link: [h for h in usual(*args) if h[0] == link]

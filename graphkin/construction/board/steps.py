@@ -307,14 +307,16 @@ class Step(OnPaper):
         return SENTENCES.get(self.reason, self.reason)
 
     def gap(self, name: str) -> object:
-        """The value of a gap in its sentence: an argument by its name, ``points.1`` the second of several, lengths on
-        paper as a ruler shows them; or a value that follows from its arguments."""
+        """The value of a gap in its sentence: an argument by its name, ``points.1`` the second of several, ``bar`` the
+        points as the letters of a figure, lengths on paper as a ruler shows them; or a value that follows from its
+        arguments."""
         source, _, part = name.rpartition(".")
-        value = getattr(self, source or part)
+        whole = source or part
+        value = getattr(self, "points" if whole == "bar" else whole)
         if source:
             value = value[int(part)] if isinstance(value, tuple) else getattr(value, part)
-        if (source or part) in ("point", "points"):
-            return PointNames((value,) if isinstance(value, str) else value) if value else ""
+        if whole in ("point", "points", "bar"):
+            return PointNames((value,) if isinstance(value, str) else value, whole == "bar") if value else ""
         if isinstance(value, tuple) and not isinstance(value, PointRef):
             return listed(value)
         return on_paper(value) if isinstance(value, float) else value or ""
@@ -447,11 +449,6 @@ class EndStep(Step):
         return super().sentence
 
     @property
-    def bar(self) -> PointNames:
-        """Its points, as the letters of a figure."""
-        return PointNames(self.points, bar=True)
-
-    @property
     def start(self) -> tuple[Phrase, ...]:
         """The ends of the vectors at which it begins."""
         return tuple(map(end_of, self.begins))
@@ -502,11 +499,6 @@ class RateStep(Step):
     def sense(self) -> object:
         """The sense of turning."""
         return sense_of(self.value)
-
-    @property
-    def bar(self) -> PointNames:
-        """The letters of the bar."""
-        return PointNames(self.points, bar=True)
 
     def gap(self, name: str) -> object:
         """The value of a gap in its sentence: an argument, or a rate in figures."""

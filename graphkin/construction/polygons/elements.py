@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.board.proportional_division import divide, magnified
-from graphkin.construction.board.sheet import Rate
+from graphkin.construction.board.sheet import Board, Rate
 from graphkin.construction.board.steps import (
     Bar,
     Direction,
@@ -450,7 +450,9 @@ class TrialPolygons:
 
     def polygon(self, number: int, rates: Sequence[float]) -> Polygons:
         """The polygon that follows from some rates."""
-        trial = self.plot.fork(number)
+        plot, hand = self.plot, self.plot.board.instrument
+        # a board of its own, whose hands do not read again what they have read
+        trial = replace(plot.again(hand), trial=number, board=Board(hand, readings=plot.board.readings))
         self.assume(trial, rates)
         _complete(trial, self.order, self.group)
         for move in self.plan.moves:

@@ -91,14 +91,9 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
 
 
 def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], known: float, add: float) -> None:
-    """Find the rate of a link from that of a known link and the rate between the two, omega_2 = omega_1 + omega_21;
-    relative to a link that stands still it needs no finding.
-
-    Parameters
-    ----------
-    links : the known link, and that of the two which turns relative to the other
-    known, add : the rate of the known link, and that between the two (rad/s, rad/s2)
-    """
+    """Find the rate of a link from that of a ``known`` link and the rate ``add`` between the two (rad/s, rad/s2),
+    omega_2 = omega_1 + omega_21; relative to a link that stands still it needs no finding.  ``links`` are the known
+    link, and that of the two which turns relative to the other."""
     if links[0] != plot.ground:
         step = RateStep("read", "sum of rates", order, kind=RATE[order], link=link, links=links, value=known, other=add)
         plot.do(step)
@@ -355,12 +350,8 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Vector, gr
 
 
 def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
-    """The terms of the motion of an edge's end relative to its start, in order.
-
-    Parameters
-    ----------
-    plot : the drawing; in acceleration with the velocities
-    edge : with its unknowns; a term of unknown size has no ``span``, those of others are in mm on paper
+    """The terms of the motion of an edge's end relative to its start, in order; in acceleration with the velocities
+    drawn.  A term of unknown size has no ``span``, those of others are in mm on paper.
 
     Raises
     ------
@@ -422,14 +413,8 @@ def _by_rate(
 
 
 def _coriolis(plot: Polygons, edge: RelativeMotion, link: str, along: complex, mm: float, written: Direction) -> Term:
-    """The term of Coriolis, 2 omega v_r: twice the rate of a link times the relative velocity of the edge, directed as
-    that velocity turned by 90 degrees in the sense of omega.
-
-    Parameters
-    ----------
-    link : the link in which the edge's end moves
-    along, mm, written : as in `_term`
-    """
+    """The term of Coriolis, 2 omega v_r: twice the rate of the ``link`` in which the edge's end moves times the
+    relative velocity of the edge, directed as that velocity turned by 90 degrees in the sense of omega."""
     size = _by_rate(plot, (link,), symbol_of(plot, "v", edge), twice=True)
     return _term(plot, edge, "ak", along, mm, written, size)
 

@@ -322,13 +322,8 @@ class _Search:
     # -- the whole -----------------------------------------------------------------------------------------------------
 
     def run(self, relative: bool, left_out: Collection[tuple[str, str]]) -> bool:
-        """Take moves while any is possible; whether the whole group is drawn then.
-
-        Parameters
-        ----------
-        relative : whether special points of two moving links are allowed
-        left_out : special points that are not allowed, by base ("": none) and link
-        """
+        """Take moves while any is possible; whether the whole group is drawn then.  Special points of two moving links
+        are allowed if ``relative``, none of those ``left_out``, by base ("": none) and link."""
         self.settle()
         # until the rate of each link is known, and a point of it
         while not all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.graph.inside):
@@ -356,13 +351,8 @@ class _Search:
 def plan_group(
     graph: VectorGraph, along: Callable[[RelativeMotion, Mapping[str, complex]], complex], letters: Sequence[str]
 ) -> Iterator[GroupPlan]:
-    """The plans for drawing a group, those with the fewest trials first.
-
-    Parameters
-    ----------
-    along : direction of the relative motion of an edge
-    letters : free letters for special points
-    """
+    """The plans for drawing a group, those with the fewest trials first, by the direction ``along`` the relative motion
+    of each edge, with free ``letters`` for special points."""
     start = _Search(graph, along, iter(letters), set(graph.known), set(), [])
     for trials in range(MOST_TRIALS + 1):
         for relative in (False, True):  # a special point of two moving links is looked for where no other serves

@@ -175,12 +175,6 @@ class Polygons:
         copies = {part.name: _copied(getattr(self, part.name)) for part in fields(self) if part.name not in SHARED}
         return replace(self, **{**copies, "board": self.board.again(hand)})
 
-    def fork(self, trial: int) -> Polygons:
-        """The same polygons on a board of their own, with the same hands, which do not read twice what they have read:
-        the trial polygons of that number."""
-        board = Board(self.board.instrument, readings=self.board.readings)
-        return replace(self.again(self.board.instrument), trial=trial, board=board)
-
     def seen_from(self, held: str, group: LargerGroup | None = None) -> Polygons:
         """These polygons with a link of a group held still, as if it were the frame, on a board of their own."""
         motion = self.seen.setdefault(held, DrawnMotion.begun(self.links, held))
@@ -282,19 +276,14 @@ class Polygons:
         return self.ends[order][ref]
 
     def record(self, vector: Vector, step: Step) -> None:
-        """Put a vector into a polygon, with the step that drew it and its further strokes."""
+        """Put a vector into a polygon, with the step that drew it and its further strokes; one of a trial polygon, seen
+        from a held link or to a special point is drawn as a construction vector."""
         if step.diagram in ORDERS:
             self.drawn[step.diagram][vector.symbol] = vector
-        self.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
-
-    def shown(self, vector: Vector) -> Vector:
-        """The drawn form of a vector: a vector of a trial polygon, seen from a held link or to a special point is a
-        construction vector.
-        """
         of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
         if self.trial or self.held or of_special:
-            return replace(vector, aid=True, trial=self.trial)
-        return vector
+            vector = replace(vector, aid=True, trial=self.trial)
+        self.do(replace(step, strokes=(vector, *step.strokes)))
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
         """Name an end point, and draw the vector to it from the pole."""
@@ -339,14 +328,12 @@ class Polygons:
             self._reach_by(ref, ends[same[0]], step)
             return
         # a special point may lie far away: it serves where the link has no other two
-        near = [r for r in refs if r.point not in self.special]
-        distance = max((abs(self.places[r.point] - self.places[s.point]) for r in near for s in near), default=0.0)
-        choices = near if distance > self.tiny else refs
-        a, b = max(
-            ((a, b) for a in choices for b in choices),
-            key=lambda ab: abs(self.places[ab[0].point] - self.places[ab[1].point]),
-        )
-        bar = self.places[b.point] - self.places[a.point]
+        for some in ([r for r in refs if r.point not in self.special], refs):
+            spans = {(a, b): self.places[b.point] - self.places[a.point] for a in some for b in some}
+            a, b = max(spans, key=lambda pair: abs(spans[pair]), default=(refs[0], refs[0]))
+            bar = spans.get((a, b), 0j)
+            if abs(bar) > self.tiny:
+                break
         if abs(bar) <= self.tiny or (order, name) in self.believed:
             start = refs[0]  # a fixed point, if the link has one
             parts = self._by_rates(order, start, ref, name)

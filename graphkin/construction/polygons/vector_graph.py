@@ -212,12 +212,8 @@ class VectorGraph:
         return made
 
     def equation(self, drawn: Collection[PointRef]) -> VectorChain | None:
-        """The shortest equation with two unknown sizes of a dyad's links and all pairs that hold them, if any.
-
-        Parameters
-        ----------
-        drawn : nodes in the polygon already (preferred as starting points)
-        """
+        """The shortest equation with two unknown sizes of a dyad's links and all pairs that hold them, if any; nodes
+        ``drawn`` in the polygon already are preferred as its ends."""
         # it may come back to where it begins: a pin that both guides belong to
         paths = [path for start in self.in_order(self.known)
                  for path in self.paths(start, 2, self.known.__contains__, self.known, shortest=0)

@@ -63,13 +63,9 @@ LEAST = 1e-3  # of the largest singular value: trials that tell less about one o
 
 
 def place_by_trial(paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses) -> None:
-    """Place a group among the known links.
+    """Place a group among the known links, at final poses of all links with the mechanism of size 1.
 
     If errors of the hand bring a trial drawing to a dead point it is drawn again, with another part left out.
-
-    Parameters
-    ----------
-    poses : the final poses of all links, with the mechanism of size 1
 
     Raises
     ------
@@ -268,14 +264,10 @@ def _measured(
     positions: TrialPositions, known: PlacedLinks, reduced: ReducedMechanism, poses: Poses,
     tried: Sequence[TrialDrawing],
 ) -> TrialPositions:  # fmt: skip
-    """Trial positions with their gaps, and the divisions of these (rad, m).
+    """Trial positions with their gaps, and the divisions of these (rad, m), drawn near the final poses of the links.
 
     Of the trials of one driver the two on either side of the wanted place are divided, then the trial with a gap of the
     new one's sense is replaced; with several drivers the trial with the largest gap.
-
-    Parameters
-    ----------
-    poses : the final poses of the links, near which the divided trials are drawn
     """
     size = reduced.structure.scene.size
     exact = replace(known, instrument=EXACT)

@@ -63,12 +63,8 @@ class TurnOfCrank:
     @classmethod
     def of(cls, structure: Structure, elements: Sequence[Element], values: Mapping[str, float], poses: Poses,
            why: str) -> TurnOfCrank:  # fmt: skip
-        """Follow a whole turn.
-
-        Parameters
-        ----------
-        poses : the poses of all links at ``values``, on paper of the mechanism's size
-        why : the name of the asked quantity, for the message
+        """Follow a whole turn from the poses of all links at driver ``values``; ``why`` names the asked quantity in a
+        message.
 
         Raises
         ------
@@ -168,12 +164,8 @@ def limits_asked(
     structure: Structure, asked: Sequence[Symbol], elements: Sequence[Element], values: Mapping[str, float],
     poses: Poses,
 ) -> dict[str, Limits]:  # fmt: skip
-    """The limit positions of every drawn output with an asked quantity of the whole turn, by its name, on paper of the
-    mechanism's size.
-
-    Parameters
-    ----------
-    values, poses : driver values (rad, m), and the links' poses there, on such paper
+    """The limit positions of every drawn output with an asked quantity of the whole turn, by its name, from driver
+    values (rad, m) and the links' poses there, on paper of the mechanism's size.
 
     Raises
     ------

@@ -3,6 +3,8 @@ following of links from one position to another, lengths in mm.
 
 Of a driven link the angle or the travel is laid off.  For each kind of dyad compass arcs and ruler lines meet: a
 `Intersection` has the quality of the crossing, the possible places of the links, and the steps of each.
+
+Everywhere ``poses`` are those of links on paper (mm), and ``mm`` is the length on paper of one m.
 """
 
 from __future__ import annotations
@@ -104,13 +106,7 @@ class PlacedLinks:
 def start_board(
     structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT
 ) -> PlacedLinks:
-    """The empty paper with the fixed points pricked.
-
-    Parameters
-    ----------
-    mm : mm of paper for one m
-    values : of the drivers (rad, m)
-    """
+    """The empty paper with the fixed points pricked, at values of the drivers (rad, m)."""
     ground = structure.scene.frame.name
     values = structure.followed(values) if structure.followers else values
     paper = PlacedLinks(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
@@ -180,39 +176,20 @@ class RigidBody:
 
 
 def travel(slide: Pair, poses: Poses, mm: float) -> float:
-    """The travel of a sliding link along its guide, from the guide's origin to its own (mm).
-
-    Parameters
-    ----------
-    poses : of the links on paper
-    mm : mm of paper for one m
-    """
+    """The travel of a sliding link along its guide, from the guide's origin to its own (mm)."""
     start = poses[slide.b].place(slide.guide.through * mm)
     return dot(poses[slide.a].origin - start, slide.along(poses))
 
 
 def reading(structure: Structure, driver: Driver, poses: Poses, mm: float) -> float:
-    """The value of a driver read from the links' poses (rad, m).
-
-    Parameters
-    ----------
-    poses : of the links on paper
-    mm : mm of paper for one m
-    """
+    """The value of a driver read from the links' poses (rad, m)."""
     if driver.turns:
         return cmath.phase(poses[driver.link].axis / poses[driver.relative_to].axis)
     return travel(structure.slide(driver.slide), poses, mm) / mm
 
 
 def across(slide: Pair, link: str, other: Pose, travel: float, mm: float) -> Pose:
-    """Pose of one side of a sliding pair from the other.
-
-    Parameters
-    ----------
-    link, other : the link to be placed, and the pose of the other
-    travel : mm of paper
-    mm : mm of paper for one m
-    """
+    """The pose of a link of a sliding pair from that of the other link, at a travel (mm)."""
     g, start = slide.guide.direction, slide.guide.through * mm
     if link == slide.a:
         return Pose(other.place(start + travel * g), other.axis * g * slide.turn)
@@ -268,7 +245,7 @@ def rolled_near(structure: Structure, paper: PlacedLinks, driver: RollingRelatio
 
 
 def coordinate_on_paper(structure: Structure, poses: Poses, mm: float, coordinate: Coordinate) -> float:
-    """An angle within a turn (rad), or a travel (m), of links on paper of ``mm`` for one m."""
+    """An angle within a turn (rad), or a travel (m), of links on paper."""
     kind, name = coordinate
     return cmath.phase(poses[name].axis) if kind == "angle" else travel(structure.slide(name), poses, mm) / mm
 

@@ -338,12 +338,8 @@ def found_near(
 def own_position(
     placed: PlacedElements, of_group: Callable[[PlacedLinks, LargerGroup], Poses] | None = None
 ) -> PlacedLinks:
-    """The links of some elements at the scene's own driver values, on paper of its size.
-
-    Parameters
-    ----------
-    of_group : function that chooses the assembly of a larger group; by trial positions if None
-    """
+    """The links of some elements at the scene's own driver values, on paper of its size; ``of_group`` chooses the
+    assembly of a larger group, by trial positions if None."""
     structure, of_group = placed.structure, of_group or partial(_group_by_sketch, placed)
     values = {d.key: d.values[0] for d in structure.scene.drivers}
     paper = start_board(structure, 1.0 / structure.scene.size, values)

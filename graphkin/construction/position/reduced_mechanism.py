@@ -274,12 +274,8 @@ class RemovedConstraint:
         return self.kind in ("turn", "guides") or (self.rolling is not None and not self.rolling.in_lengths)
 
     def gap(self, paper: PlacedLinks, since: Mapping[str, float]) -> float:
-        """Its misfit: mm of paper, or rad.
-
-        Parameters
-        ----------
-        since : angles and travels (rad, m) of rolling links at a position within half a turn, by names of coordinates
-        """
+        """Its misfit (mm of paper, or rad); ``since`` has angles and travels (rad, m) of rolling links at a position
+        within half a turn, by names of coordinates."""
         poses, mm, driver = paper.poses, paper.mm, self.driver
         if self.rolling is not None:  # by how much the sum that rolling keeps is another
             gap, here = 0.0, self.coordinates(poses, mm)
