@@ -98,8 +98,7 @@ class GraphkinError(Exception):
     @property
     def reason(self) -> Wording:
         """The problems as a phrase of one line."""
-        said: Wording = joined("problem after problem", (problem.sentence for problem in self.problems))
-        return said
+        return joined("problem after problem", (problem.sentence for problem in self.problems))
 
     def __reduce__(self) -> tuple[type[GraphkinError], tuple[Problem, ...]]:
         return type(self), self.problems
@@ -202,8 +201,7 @@ def some_of(names: Sequence[str]) -> Wording:
     >>> str(some_of([*"ABCDEFGHIJKLMNO"]))
     'A, B, C, D, E, F, G, H, I, J, K, L, ...'
     """
-    said: Wording = listed([*names[:MOST_NAMED], *["..."] * (len(names) > MOST_NAMED)])
-    return said
+    return listed([*names[:MOST_NAMED], *["..."] * (len(names) > MOST_NAMED)])
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> Phrase:

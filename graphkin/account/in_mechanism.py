@@ -27,7 +27,7 @@ from graphkin.construction.board.steps import (
 )
 from graphkin.plane import cross, degrees, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Neutral, Phrase, clauses, in_turn, joined, listed, sense_of
+from graphkin.words import Neutral, Phrase, clauses, joined, listed, sense_of
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import on_paper, roman, true_minus
 
@@ -101,7 +101,7 @@ class InMechanism(Telling):
                 return None
             told.append(said)
             known.append(name)
-        return in_turn(told) if told else None
+        return joined("in turn", told) if told else None
 
     def _marked(self, known: list[str], name: str) -> Phrase | None:
         """A new point of a link by its known points, if there are any."""
@@ -236,7 +236,7 @@ class InMechanism(Telling):
                 parts.append(Phrase("written fits", values=listed(self._row(trial, trial.divided[-1])[0])))
         if route := [*self._route()]:
             parts.insert(2, Phrase("written route", route=listed([*map(Neutral, route)])))
-        yield in_turn(parts)
+        yield joined("in turn", parts)
 
     def _route(self) -> Iterator[RichText]:
         """Each point with its construction: its link, the centres of its arcs, its guide."""

@@ -42,7 +42,7 @@ from graphkin.construction.board.steps import (
 )
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Neutral, Phrase, in_turn, joined, languages, listed, sense_of
+from graphkin.words import Neutral, Phrase, joined, languages, listed, sense_of
 from graphkin.words.symbols import RichText, Words, rate, sign, spaced
 from graphkin.words.written import MOST, amount, on_paper, pointing, printed, quotient, roman, true_minus
 
@@ -329,7 +329,7 @@ class InPolygon(Telling):
             way = part.direction if normal else Phrase("pointing", direction=part.direction, angle=pointing(span))
             told.append(Phrase("lay off from", start=start, rule=rule, length=on_paper(abs(span)), way=way))
             start = Phrase("the end of", vector=part.symbol)
-        return in_turn(told) if told else None
+        return joined("in turn", told) if told else None
 
     def _by_rates(self) -> Phrase | None:
         return self.first("ends seen" if self.step.held else "ends in")

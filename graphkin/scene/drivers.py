@@ -22,7 +22,7 @@ from graphkin.scene.laws import LiftPiece, MotionLaw, form_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver, DriverLaw, Positions
 from graphkin.scene.tables import Units, in_si, in_units
-from graphkin.words import Phrase, alternatives, listed
+from graphkin.words import Phrase, joined, listed
 
 # -- reading -----------------------------------------------------------------------------------------------------------
 
@@ -207,10 +207,10 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     elif not keys:
         name, rail = ("slide", on) if on and on not in pairs.values() else ("relative_to", driver.relative_to)
         reading.say(f"{where}.{name}", "does not slide on link", "it may be", what=what, name=rail,
-                    names=alternatives(pairs))
+                    names=joined("one or other", pairs))
     elif len(keys) > 1:
         reading.say(here, "slides on links", "write a key", what=what, count=len(keys),
-                    names=alternatives([f'"{pair}"' for pair in keys]))
+                    names=joined("one or other", [f'"{pair}"' for pair in keys]))
     if link is not None and link.redundant:
         reading.say(here, "link is redundant", "drive by a link that counts", what=what)
     return meant

@@ -15,7 +15,7 @@ from graphkin.scene.bodies import Reading
 from graphkin.scene.model import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPhase, Mass, Spring
 from graphkin.scene.tables import in_si
-from graphkin.words import Phrase, alternatives, listed
+from graphkin.words import Phrase, joined, listed
 
 TURN = math.tau * (1 + 1e-12)
 ACTING = ("masses", "loads", "springs")
@@ -74,7 +74,7 @@ def _pair(reading: Reading, where: str, ref: str) -> str:
     if len(known) != 1 and not reading.is_unread(ref):
         meant = did_you_mean(ref, reading.pairs)
         if known:
-            reading.say(where, "may be", meant, ref=ref, name=alternatives(known))
+            reading.say(where, "may be", meant, ref=ref, name=joined("one or other", known))
         else:
             reading.say(where, "is no sliding pair", meant, ref=ref)
     return known[0] if known else ""
