@@ -9,13 +9,15 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from decimal import Decimal, localcontext
+from decimal import Context, Decimal
+from functools import reduce
 
 MOST = 5  # figures of a computed number
 FINER = range(MOST, MOST + 4)  # figures, where those few do not give what they should as they are written
 LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
 ROUNDED = 1e-12  # mm on a sheet of some hundred: what the sixteenth digit leaves
-DIGITS = 40
+EXACT = Context(prec=40)
+"""Sums with all the digits of numbers as they are written."""
 LONGEST = 9  # figures that somebody writes
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
@@ -47,10 +49,7 @@ def product(*factors: str, carried: int | None = None) -> str:
     >>> product("5.55", "100"), product("0.06", "200"), product("2", "2.8193", "575.4", carried=4)
     ('555', '12', '3244')
     """
-    with localcontext(prec=DIGITS):
-        whole = Decimal(1)
-        for factor in factors:
-            whole *= _number(factor)
+    whole = reduce(EXACT.multiply, map(_number, factors))
     return _plain(_rounded(whole, carried) if carried else whole)
 
 
@@ -60,14 +59,12 @@ def difference(one: str, other: str) -> str:
     >>> difference("-10", "-2.8191"), difference("0.5", "0.5")
     ('7.1809', '0')
     """
-    with localcontext(prec=DIGITS):
-        return _plain(abs(_number(one) - _number(other)))
+    return _plain(EXACT.abs(EXACT.subtract(_number(one), _number(other))))
 
 
 def quotient(over: str, under: str, carried: int) -> str:
     """The quotient of two numbers as they are written, to ``carried`` figures."""
-    with localcontext(prec=DIGITS):
-        return _plain(_rounded(_number(over) / _number(under), carried))
+    return _plain(_rounded(EXACT.divide(_number(over), _number(under)), carried))
 
 
 def to_lay_off(value: float, per: float, mm: float) -> tuple[str, str]:
@@ -88,9 +85,9 @@ def is_quotient(value: str, over: str, under: str) -> bool:
     >>> is_quotient("90.00", "9000", "100"), is_quotient("91.21", "228.04", "2.5")
     (True, False)
     """
-    with localcontext(prec=DIGITS):
-        whole, step = _number(value), Decimal(1).scaleb(int(_number(value).as_tuple().exponent))
-        return 2 * abs(_number(over) / _number(under) - whole) <= step
+    whole = _number(value)
+    step = Decimal(1).scaleb(int(whole.as_tuple().exponent))
+    return 2 * abs(EXACT.subtract(EXACT.divide(_number(over), _number(under)), whole)) <= step
 
 
 def increased(value: str, more: str) -> str:
@@ -99,8 +96,7 @@ def increased(value: str, more: str) -> str:
     >>> increased("9", "2.89"), increased("0.5", "-0.5")
     ('11.89', '0')
     """
-    with localcontext(prec=DIGITS):
-        return _plain(_number(value) + _number(more))
+    return _plain(EXACT.add(_number(value), _number(more)))
 
 
 def increase(value: float, more: float) -> str:
@@ -206,14 +202,14 @@ def _rounded(value: Decimal, carried: int) -> Decimal:
     if not value:
         return Decimal(0)
     step = Decimal(1).scaleb(min(value.adjusted() - carried + 1, 0))
-    return value.quantize(step)
+    return value.quantize(step, context=EXACT)
 
 
 def _plain(value: Decimal) -> str:
     """The number without an exponent where possible, and without needless zeros."""
     if not value:
         return "0"
-    value = value.normalize()
+    value = value.normalize(EXACT)
     if -5 <= value.adjusted() < 9:
         return f"{value:f}"
     head, power = f"{value:e}".split("e")
