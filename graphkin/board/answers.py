@@ -15,6 +15,7 @@ import tempfile
 import zipfile
 import zlib
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any
@@ -34,7 +35,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import LARGEST_FILE, NEW, new_scene, parsed, put, resolved, safe_name
 from graphkin.scene.tables import as_sentence
-from graphkin.solver import solved_here
+from graphkin.solver import solved_here, structure_of
 from graphkin.structure import mobility_of
 from graphkin.words import LANGUAGES, Phrase, area, say, word
 
@@ -77,35 +78,24 @@ def language_of(message: object) -> str:
 
 
 def _problems(shelf: Shelf, error: GraphkinError, message: object) -> Answer:
-    text = message.get("text") if isinstance(message, Mapping) else ""
-    text = text if isinstance(text, str) else ""
-    spoken, lines = language_of(message), isinstance(error, SceneError) or text != ""
+    given = message if isinstance(message, Mapping) else {}
+    text, language = (value if isinstance(value := given.get(key), str) else "" for key in ("text", "language"))
+    lines = isinstance(error, SceneError) or text != ""
     problems: list[dict[str, Json]] = [
-        {"text": problem.text(spoken), "line": line_of(problem, text) if lines else 0}
+        {"text": problem.text(language_of(message)), "line": line_of(problem, text) if lines else 0}
         for problem in error.problems[:100]
     ]
-    return {"problems": problems, "kind": type(error).__name__, **_draft_of(shelf, text, message)}
-
-
-def _draft_of(shelf: Shelf, text: str, message: object) -> Answer:
-    """The figures of a scene that does not move yet: its sketch and its mobility."""
-    language = message.get("language") if isinstance(message, Mapping) else None
-    try:
+    told: Answer = {"problems": problems, "kind": type(error).__name__}
+    with suppress(GraphkinError):  # of a scene that does not move yet the sketch and the mobility
         made = parsed(text)
-    except SceneError:
-        return {}
-    shown: Answer = {"draft": building.draft(made), "form": made}
-    trial = building.trial_driver(made)
-    try:
+        told |= {"draft": building.draft(made), "form": made}
+        trial = building.trial_driver(made)
         made = pictures.with_own_files(parsed(text), shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
-        count = 0 if trial else len(scene.drivers)
         spoken = language if language in LANGUAGES else scene.question.sheet.language
-        shown["mobility"] = pictures.mobility_text(scene, spoken, count)
-        shown["freedom"] = mobility_of(scene).value
-    except GraphkinError:
-        pass
-    return shown
+        told["mobility"] = pictures.mobility_text(scene, spoken, 0 if trial else len(scene.drivers))
+        told["freedom"] = mobility_of(scene).value
+    return told
 
 
 # -- the questions --------------------------------------------------------------------------------------------------
@@ -147,13 +137,18 @@ class Message(BaseModel):
         """A message with all arguments of its question.  Raises CallError, naming those that are missing or wrong."""
         given = {key: value for key, value in message.items() if value is not None}
         wrong = {key: None for key in cls.model_fields if key in needed and key not in given}
-        wrong |= {key: value for key, value in given.items() if not _is_text(value)}
+        for key, value in given.items():
+            try:
+                json.dumps(value, ensure_ascii=False).encode()
+            except UnicodeEncodeError:  # half of a character that needs two codes can be neither sent nor saved
+                wrong[key] = value
         try:
             made = cls.model_validate(given)
         except ValidationError as error:
             wrong |= {str(one["loc"][0]): one["input"] for one in error.errors(include_url=False)}
         if wrong:
-            raise CallError(*(_refused(key, value) for key, value in wrong.items()))
+            told = ((*_NEEDED.get(key, (key, "")), value) for key, value in wrong.items())
+            raise CallError(*(Problem(at, "found value", needed, value=f"{value!r:.60}") for at, needed, value in told))
         return made
 
     @property
@@ -174,14 +169,6 @@ class Message(BaseModel):
         return FigureOptions(figures, language, convention, instrument, self.seed, scales)
 
 
-def _is_text(value: object) -> bool:
-    """Whether a value can be sent and saved: half of a character that needs two codes cannot."""
-    try:
-        return bool(json.dumps(value, ensure_ascii=False).encode())
-    except UnicodeEncodeError:
-        return False
-
-
 _PULL, _COMPLETE = ("pull", Phrase("name a point and a place")), ("complete", Phrase("give line and column"))
 _NEEDED: Mapping[str, tuple[str | Phrase, Phrase]] = {
     "text": (Phrase("the scene"), Phrase("give its text")),
@@ -193,12 +180,6 @@ _NEEDED: Mapping[str, tuple[str | Phrase, Phrase]] = {
     "count": ("variants", Phrase("give a number from 1 to", most=MOST_VARIANTS)),
 }  # fmt: skip
 """What a key of a message is about, and what it needs."""
-
-
-def _refused(key: str, value: object) -> Problem:
-    """The problem of a message's value that its question cannot use."""
-    where, needed = _NEEDED.get(key, (key, ""))
-    return Problem(where, "found value", needed, value=f"{value!r:.60}")
 
 
 def _show(shelf: Shelf, asked: Message) -> Answer:
@@ -220,14 +201,6 @@ def _pull(shelf: Shelf, asked: Message) -> Answer:
             raise CallError(problem)
     there = resolved(pictures.with_own_files(raw, shelf.folder), "scene")[1] if changes else scene
     return {**pictures.shown(there, now, asked.options, quick=True), "changes": changes}
-
-
-def _change(shelf: Shelf, asked: Message) -> Answer:
-    return {"text": changed(asked.text, asked.changes)}
-
-
-def _build(shelf: Shelf, asked: Message) -> Answer:
-    return {"text": building.built(asked.text, asked.step)}
 
 
 def _keep(shelf: Shelf, asked: Message) -> Answer:
@@ -281,25 +254,11 @@ def _open(shelf: Shelf, asked: Message) -> Answer:
     return {"name": name, "text": text, "mark": mark_of(text), "own": name in shelf.files()}
 
 
-def _shelf(shelf: Shelf, asked: Message) -> Answer:
-    scenes = shelf.listing()
-    writes = shelf.folder is not None
-    return {"scenes": scenes, "new": sorted(NEW), "writes": writes, "only": shelf.only}
-
-
 def _thumbnail(shelf: Shelf, asked: Message) -> Answer:
-    name = asked.name
-    scene = pictures.scene_of(shelf.text(name), safe_name(name.removesuffix(".toml")), shelf.folder)
+    scene = asked.model_copy(update={"text": shelf.text(asked.name)}).scene(shelf)
     language = asked.language if asked.language in LANGUAGES else None
-    return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.question.title_in(asked.spoken)}
-
-
-def _save(shelf: Shelf, asked: Message) -> Answer:
-    return {"mark": shelf.save(asked.name, asked.text, asked.mark)}
-
-
-def _watch(shelf: Shelf, asked: Message) -> Answer:
-    return {"changed": shelf.changed(asked.name, asked.mark)}
+    shown, title = pictures.thumbnail(scene, language), scene.question.title_in(asked.spoken)
+    return {"name": asked.name, "svg": shown, "title": title}
 
 
 def _diagrams(shelf: Shelf, asked: Message) -> Answer:
@@ -316,56 +275,46 @@ def _race(shelf: Shelf, asked: Message) -> Answer:
     return {"figures": {name: figure.content("svg").decode() for name, figure in charts.figures.items()}}
 
 
-_TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", "dxf": "image/vnd.dxf",
-          "zip": "application/zip", "toml": "application/toml"}  # fmt: skip
+_FIGURES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", "dxf": "image/vnd.dxf"}
 
 
 def _export(shelf: Shelf, asked: Message) -> Answer:
     """A figure, the papers, a set of variants, or the scene, as a file for the user."""
     kind, scene, options = asked.kind, asked.scene(shelf), asked.options
-    if kind in ("svg", "pdf", "png", "dxf"):
-        from graphkin import solver
-
-        drawn, _ = pictures.drawn_at(solver.structure_of(scene), asked.at, options)
-        figures = drawn.figures
-        if not figures:
+    if kind in _FIGURES:
+        drawn, _ = pictures.drawn_at(structure_of(scene), asked.at, options)
+        if not drawn.figures:
             raise CallError.of("figure", "there is nothing to draw", "choose another figure")
-        name, figure = next(iter(figures.items()))
-        return _file(f"{scene.name}-{name}.{kind}", figure.content(kind))
-    if kind == "scene":
-        return _file(f"{scene.name}.toml", asked.text.encode())
-    if kind not in ("papers", "variants"):
+        figure_name, figure = next(iter(drawn.figures.items()))
+        name, media, content = f"{scene.name}-{figure_name}.{kind}", _FIGURES[kind], figure.content(kind)
+    elif kind == "scene":
+        name, media, content = f"{scene.name}.toml", "application/toml", asked.text.encode()
+    elif kind in ("papers", "variants"):
+        name, media, content = f"{scene.name}-{kind}.zip", "application/zip", _papers(scene, asked, options)
+    else:
         raise CallError.of("kind", f'"{kind!s:.40}"', "known here svg pdf png dxf papers variants")
-    with tempfile.TemporaryDirectory() as folder:
-        _papers(scene, asked, options, Path(folder))
-        return _file(f"{scene.name}-{kind}.zip", _packed(Path(folder)))
+    return {"name": name, "type": media, "data": base64.b64encode(content).decode()}
 
 
-def _papers(scene: Mechanism, asked: Message, options: FigureOptions, folder: Path) -> None:
+def _papers(scene: Mechanism, asked: Message, options: FigureOptions) -> bytes:
+    """The papers of a scene, or a set of its variants, packed."""
     from graphkin.api.classroom.handouts import handout, papers_of
     from graphkin.api.classroom.problem_sets import problem_set
     from graphkin.table import have
 
-    formats = ("html", "pdf") if have("typst") else ("html",)
-    if asked.kind == "papers":
-        spoken, school = options.language, options.convention
-        handout(scene, out=folder, at=asked.at, formats=formats, language=spoken, convention=school)
-        return
-    render = papers_of(scene, formats, options.language, options.convention)
-    problem_set(scene, variants=asked.count, seed=options.seed, out=folder, render=render)
-
-
-def _packed(folder: Path) -> bytes:
-    made = io.BytesIO()
-    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
-        for path in sorted(p for p in folder.rglob("*") if p.is_file() and not p.name.startswith(".")):
-            archive.write(path, path.relative_to(folder).as_posix())
-    return made.getvalue()
-
-
-def _file(name: str, content: bytes) -> Answer:
-    ending = name.rpartition(".")[2]
-    return {"name": name, "type": _TYPES[ending], "data": base64.b64encode(content).decode()}
+    formats, spoken, school = ("html", "pdf") if have("typst") else ("html",), options.language, options.convention
+    packed = io.BytesIO()
+    with tempfile.TemporaryDirectory() as place:
+        folder = Path(place)
+        if asked.kind == "papers":
+            handout(scene, out=folder, at=asked.at, formats=formats, language=spoken, convention=school)
+        else:
+            render = papers_of(scene, formats, spoken, school)
+            problem_set(scene, variants=asked.count, seed=options.seed, out=folder, render=render)
+        with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+            for path in sorted(p for p in folder.rglob("*") if p.is_file() and not p.name.startswith(".")):
+                archive.write(path, path.relative_to(folder).as_posix())
+    return packed.getvalue()
 
 
 def scene_link(text: str) -> str:
@@ -392,24 +341,24 @@ def text_of_link(link: str) -> str:
                            link=link[:40]) from None
 
 
-def _link(shelf: Shelf, asked: Message) -> Answer:
-    return {"link": scene_link(asked.text)}
-
-
 def _names(shelf: Shelf, asked: Message) -> Answer:
     """The words of the page in a language."""
-    spoken = asked.spoken
-    names = {key.removeprefix("page "): text for key, text in area("page", spoken).items()}
+    names = {key.removeprefix("page "): text for key, text in area("page", asked.spoken).items()}
     own_names: Answer = {each: word("name of the language", each) for each in LANGUAGES}
-    return {"words": names, "language": spoken, "languages": own_names, "figures": list(figure_kinds())}
+    return {"words": names, "language": asked.spoken, "languages": own_names, "figures": list(figure_kinds())}
 
 
 QUESTIONS: Mapping[str, tuple[tuple[str, ...], Callable[[Shelf, Message], Answer]]] = {
-    "show": (("text",), _show), "pull": (("text", "point", "x", "y"), _pull), "change": (("text", "changes"), _change),
-    "build": (("text", "step"), _build), "keep": (("text",), _keep),
-    "complete": (("text", "line", "column"), _complete), "open": ((), _open), "shelf": ((), _shelf),
-    "thumbnail": ((), _thumbnail), "save": (("text",), _save), "watch": ((), _watch), "race": (("text",), _race),
-    "diagrams": (("text",), _diagrams), "export": (("text", "kind"), _export), "link": (("text",), _link),
-    "names": ((), _names),
+    "show": (("text",), _show), "pull": (("text", "point", "x", "y"), _pull), "keep": (("text",), _keep),
+    "change": (("text", "changes"), lambda _, asked: {"text": changed(asked.text, asked.changes)}),
+    "build": (("text", "step"), lambda _, asked: {"text": building.built(asked.text, asked.step)}),
+    "complete": (("text", "line", "column"), _complete), "open": ((), _open),
+    "shelf": ((), lambda shelf, _: {"scenes": shelf.listing(), "new": sorted(NEW), "writes": shelf.folder is not None,
+                                    "only": shelf.only}),
+    "thumbnail": ((), _thumbnail),
+    "save": (("text",), lambda shelf, asked: {"mark": shelf.save(asked.name, asked.text, asked.mark)}),
+    "watch": ((), lambda shelf, asked: {"changed": shelf.changed(asked.name, asked.mark)}),
+    "race": (("text",), _race), "diagrams": (("text",), _diagrams), "export": (("text", "kind"), _export),
+    "link": (("text",), lambda _, asked: {"link": scene_link(asked.text)}), "names": ((), _names),
 }  # fmt: skip
 """What the page may ask, by name: what the message needs, and what it is told."""
