@@ -86,6 +86,15 @@ def whole_file(path: Path, beside: Path | None = None) -> Iterator[IO[bytes]]:
 
 
 @contextmanager
+def writing_to(where: str, wanted: str = "") -> Iterator[None]:
+    """Write to a file or a folder, whose name a CallError tells where the system cannot."""
+    try:
+        yield
+    except OSError as error:
+        raise CallError.of(where, "cannot be written", wanted, reason=from_others(error)) from None
+
+
+@contextmanager
 def folder_alone(folder: Path) -> Iterator[None]:
     """Hold a folder of results for one long job: a second program that wants it gets an error that names the first.
 
@@ -131,14 +140,10 @@ def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> l
     ------
     CallError : the folder cannot be written
     """
-    try:
+    with writing_to(str(folder), "give another folder with o"):
         folder.mkdir(parents=True, exist_ok=True)
         for name, content in files.items():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             with whole_file(folder / name) as out:
-                for piece in [content] if isinstance(content, bytes) else content:
-                    out.write(piece)
-    except OSError as error:
-        raise CallError.of(str(folder), "cannot be written", "give another folder with o",
-                           reason=from_others(error)) from None
+                out.writelines([content] if isinstance(content, bytes) else content)
     return [folder / name for name in files]

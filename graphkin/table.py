@@ -31,7 +31,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphkin.errors import CallError, as_text, did_you_mean
-from graphkin.files import Json, opened, path_of, whole_file, write_files
+from graphkin.files import Json, opened, path_of, whole_file, write_files, writing_to
 from graphkin.words import Phrase, from_others, listed
 
 if TYPE_CHECKING:
@@ -368,19 +368,16 @@ class Table:
         if kind not in FILES:
             raise CallError.of(str(path), "is no table of kind", "known here", kind=kind, names=listed([*FILES]))
         arrow = self.to_arrow() if kind == ".parquet" else None
-        try:
-            with whole_file(target) as out:
-                if kind == ".csv":
-                    self.write_csv(out)
-                elif kind == ".json":
-                    self.write_json(out)
-                elif arrow is None:
-                    out.write(self._repr_html_().encode())
-                else:
-                    with _parquet(self, arrow.schema, out) as writer:
-                        writer.write_table(arrow)
-        except OSError as error:
-            raise CallError.of(str(path), "cannot be written", reason=from_others(error)) from None
+        with writing_to(str(path)), whole_file(target) as out:
+            if kind == ".csv":
+                self.write_csv(out)
+            elif kind == ".json":
+                self.write_json(out)
+            elif arrow is None:
+                out.write(self._repr_html_().encode())
+            else:
+                with _parquet(self, arrow.schema, out) as writer:
+                    writer.write_table(arrow)
         return target
 
 

@@ -31,7 +31,7 @@ from graphkin.errors import GraphkinError, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
 from graphkin.papers.html import words_html
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene import parsed, resolved
+from graphkin.scene.scene import naming_files, parsed, resolved
 from graphkin.scene.symbol import asked_here
 from graphkin.solver import Motion, driver_range, solved_here
 from graphkin.solver.path.driver_range import DriverRange
@@ -71,14 +71,7 @@ def scene_of(text: str, name: str, folder: Path | None) -> Mechanism:
 
 def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
     """The mapping of a scene, whose files are searched for in one folder only."""
-    sheet = made.get("sheet")
-    under = sheet.get("background") if isinstance(sheet, dict) else None
-    scans = made.get("scans")
-    tables = [("printed_table", made.get("printed_table")), ("sheet.background", under)]
-    tables += [(f"scans.{name}", scan) for name, scan in (scans.items() if isinstance(scans, dict) else ())]
-    for where, table in tables:
-        if not isinstance(table, dict) or not isinstance(table.get("file"), str):
-            continue
+    for where, table in naming_files(made):
         name = table["file"]
         if folder is None or Path(name).name != name or name.startswith(".") or (folder / name).is_symlink():
             raise SceneError.of(f"{where}.file", "found of name", "on this page a scene names files of", name=name[:60])
@@ -95,10 +88,8 @@ def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -
     return plain_said(Phrase(key, **numbers, drivers=count), language)
 
 
-@lru_cache(maxsize=16)
-def _analysed(scene: Mechanism) -> Structure:
-    """The structure of a scene, with which its range and its last drawing are kept."""
-    return solver.structure_of(scene)
+_analysed = lru_cache(maxsize=16)(solver.structure_of)
+"""The structure of a scene, with which its range and its last drawing are kept."""
 
 
 def reach(scene: Mechanism) -> tuple[float, float, bool, Wording]:
@@ -293,18 +284,20 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
         limits: dict[str, Json] = {"low": low, "high": high, "turns": turns, "why": say(why, spoken)}
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
-    steps: list[dict[str, Json]] = [
-        {"n": told.step.number, "figure": told.step.diagram, "html": words_html(told.sentence(spoken), spoken),
-         "work": [words_html(line, spoken) for line in told.work]}
-        for told in (telling(account, step) for step in sheet.steps)
-    ]  # fmt: skip
+    motion, forces = (telling(account, step) for step in sheet.steps), force_stages(account)
+    steps = [*((told.step.diagram, told, told.work) for told in motion),
+             *((stage.figure, told, told.work_in(spoken)) for stage in forces for told in stage.steps)]
     return {
         "readings": [
             [symbol, on_paper, f"{measured} {unit}", f"{exact} {unit}", ok]
             for symbol, on_paper, measured, exact, unit, ok in reading_words(drawn.checked)
         ],
         "agrees": drawn.ok,
-        "steps": steps + _force_steps(account, spoken),
+        "steps": [
+            {"n": told.step.number, "figure": figure, "html": words_html(told.sentence(spoken), spoken),
+             "work": [words_html(line, spoken) for line in work]}
+            for figure, told, work in steps
+        ],
         "range": limits,
         "drivers": [
             {"key": d.key, "angle": d.turns, "now": scene.unit_of(d).said(drawn.motion.values[0][i]),
@@ -315,15 +308,6 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
         "title": scene.question.title_in(spoken),
         "unit": scene.units.length,
     }  # fmt: skip
-
-
-def _force_steps(account: Account, spoken: str) -> list[dict[str, Json]]:
-    """The steps by which the forces are found, behind those of the motion."""
-    return [
-        {"n": told.step.number, "figure": stage.figure, "html": words_html(told.sentence(spoken), spoken),
-         "work": [words_html(line, spoken) for line in told.work_in(spoken)]}
-        for stage in force_stages(account) for told in stage.steps
-    ]  # fmt: skip
 
 
 def thumbnail(scene: Mechanism, language: str | None) -> str:

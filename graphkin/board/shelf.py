@@ -12,9 +12,9 @@ from hashlib import sha256
 from pathlib import Path
 
 from graphkin.errors import CallError, GraphkinError, did_you_mean
-from graphkin.files import Json, whole_file
+from graphkin.files import Json, whole_file, writing_to
 from graphkin.scene.scene import LARGEST_FILE, file_text, library, library_text
-from graphkin.words import Phrase, from_others
+from graphkin.words import Phrase
 
 _NAME = re.compile(r"[^\W_][\w .-]{0,80}\.toml")
 
@@ -93,18 +93,16 @@ class Shelf:
         path = self._path(name)
         if len(text) > LARGEST_FILE:
             raise CallError.of(name, "is larger than kb", largest=LARGEST_FILE // 1000)
-        try:
-            before = path.read_bytes() if path.is_file() else None
-            if before is not None and mark_of(before.decode("utf-8-sig", "replace")) != mark:
-                raise CallError.of(name, "has been changed by somebody else since it",
-                                   "open it again or save under another name")
-            if before is not None:
+        with writing_to(name):
+            if path.is_file():
+                before = path.read_bytes()
+                if mark_of(before.decode("utf-8-sig", "replace")) != mark:
+                    raise CallError.of(name, "has been changed by somebody else since it",
+                                       "open it again or save under another name")
                 with whole_file(path.with_name(f"{path.name}~")) as kept:
                     kept.write(before)
             with whole_file(path) as out:
                 out.write(text.encode())
-        except OSError as error:
-            raise CallError.of(name, "cannot be written", reason=from_others(error)) from None
         return mark_of(text)
 
     def changed(self, name: str, mark: str) -> str | None:
@@ -120,12 +118,8 @@ class Shelf:
             raise CallError.of(name[:60] or Phrase("the file"), "no file was opened that could be written",
                                "start with a folder graphkin open folder")
         if name != self.only and (self.only or not _NAME.fullmatch(name)):
-            wanted = (
-                Phrase("only may be written here", names=self.only)
-                if self.only
-                else Phrase("a name like four-bar.toml is wanted")
-            )
-            raise CallError.of(f'"{name[:60]}"', "cannot be written of nothing", wanted)
+            wanted = "only may be written here" if self.only else "a name like four-bar.toml is wanted"
+            raise CallError.of(f'"{name[:60]}"', "cannot be written of nothing", wanted, names=self.only)
         path = self.folder / name
         if path.is_symlink() and self.only != name:
             raise CallError.of(name, "is a link to another place", "open that file itself")

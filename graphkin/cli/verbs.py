@@ -30,7 +30,7 @@ from graphkin.cli.output import (
     show_unused,
 )
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.words import Phrase, class_of, from_others, languages, say, word
+from graphkin.words import Phrase, class_of, languages, say, word
 
 if TYPE_CHECKING:
     from graphkin.api.checked import Checked
@@ -479,14 +479,11 @@ def _list(given: Given) -> None:
 def _hand_out(given: Given, text: str, path: Path | None) -> None:
     """Print the text of a scene, or write it where no file is yet."""
     if path is not None:
-        from graphkin.files import whole_file
+        from graphkin.files import whole_file, writing_to
 
         _must_be_new(path)
-        try:
-            with whole_file(path) as out:
-                out.write(text.encode())
-        except OSError as error:
-            raise CallError.of(str(path), "cannot be written", reason=from_others(error)) from None
+        with writing_to(str(path)), whole_file(path) as out:
+            out.write(text.encode())
     if given.json:
         print_json({"text": text} if path is None else {"files": [str(path)]})
     elif path is None and not given.quiet:

@@ -10,7 +10,7 @@ import math
 import os
 import re
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -19,7 +19,7 @@ from string import Template
 from typing import Any
 
 from graphkin.errors import CallError, Problem, SceneError, as_text, did_you_mean
-from graphkin.files import OwnTables, Tables, opened, path_of, whole_file
+from graphkin.files import OwnTables, Tables, opened, path_of, whole_file, writing_to
 from graphkin.plane import degrees
 from graphkin.scene import position as places
 from graphkin.scene.asked import asked, at_its_position, loops_named, positions_named, stated_values
@@ -194,49 +194,37 @@ def toml_text(mapping: Tables) -> str:
     length = 2
     """
     import tomlkit
-    from tomlkit.items import Table
+    from tomlkit.items import AoT, Table
 
     def value(given: object) -> object:
         if isinstance(given, Mapping):
-            inline = tomlkit.inline_table()
-            for key, item in given.items():
-                inline.append(key, value(item))
-            return inline
+            return filled(tomlkit.inline_table(), given)
         if isinstance(given, list | tuple):
             return [value(item) for item in given]
         return int(given) if isinstance(given, float) and given.is_integer() and abs(given) < 1e15 else given
 
-    def table(given: Tables) -> Table:
-        made = tomlkit.table()
-        for key, item in given.items():
-            made.append(key, value(item))
+    def filled(made: Any, given: Tables, item: Callable[[Any], object] = value) -> Any:
+        for key, entry in given.items():
+            made.append(key, item(entry))
         return made
 
+    def table(given: Tables) -> Any:
+        return filled(tomlkit.table(), given)
+
+    def whole(key: str, given: Any) -> object:
+        if isinstance(given, list) and given and all(isinstance(item, Mapping) for item in given):
+            return AoT([table(item) for item in given])
+        if not isinstance(given, Mapping):
+            return value(given)
+        if SCENE.holds_tables(key) and all(isinstance(item, Mapping) for item in given.values()):
+            return filled(tomlkit.table(is_super_table=True), given, table)
+        return table(given)
+
+    entries = {key: whole(key, given) for key, given in mapping.items()}
     text = tomlkit.document()
-    for key in sorted(mapping, key=lambda key: _is_table(mapping[key])):  # tables come after what stands alone
-        given = mapping[key]
-        named = isinstance(given, Mapping) and SCENE.holds_tables(key)
-        if named and all(isinstance(item, Mapping) for item in given.values()):
-            made = tomlkit.table(is_super_table=True)
-            for name, item in given.items():
-                made.append(name, table(item))
-            text.append(key, made)
-        elif isinstance(given, Mapping):
-            text.append(key, table(given))
-        elif _is_table(given):
-            several = tomlkit.aot()
-            for item in given:
-                several.append(table(item))
-            text.append(key, several)
-        else:
-            text.append(key, value(given))
+    for key in sorted(entries, key=lambda key: isinstance(entries[key], Table | AoT)):  # after what stands alone
+        text.append(key, entries[key])
     return text.as_string()
-
-
-def _is_table(value: object) -> bool:
-    return isinstance(value, Mapping) or (
-        isinstance(value, list) and bool(value) and all(isinstance(v, Mapping) for v in value)
-    )
 
 
 # -- the mechanism of a file -------------------------------------------------------------------------------------------
@@ -485,11 +473,8 @@ class Scene(SceneTables):
         CallError : a place that cannot be written
         """
         target = path_of(path)
-        try:
-            with whole_file(target) as out:
-                out.write(toml_text(self.to_dict()).encode())
-        except OSError as error:
-            raise CallError.of(str(path), "cannot be written", reason=from_others(error)) from None
+        with writing_to(str(path)), whole_file(target) as out:
+            out.write(toml_text(self.to_dict()).encode())
         return target
 
     def __hash__(self) -> int:
@@ -562,19 +547,22 @@ def written(source: SceneLike) -> tuple[OwnTables, str]:
                                     "save it as a file or give tomllib.loads")
             if isinstance(source, str) and text in library() and not os.path.isfile(text):
                 return parsed(library_text(text)), text
-            return _beside(parsed(file_text(text)), Path(text)), Path(text).stem
+            made, path = parsed(file_text(text)), Path(text)
+            for _, table in naming_files(made):
+                table["file"] = str(path.parent / table["file"])
+            return made, path.stem
     raise SceneError.of(Phrase("the scene"), "found a", "give a file the name of a scene", name=type(source).__name__)
 
 
-def _beside(made: OwnTables, path: Path) -> OwnTables:
-    """The mapping of a file, with the places of the table and the picture that stand beside it."""
-    sheet = made.get("sheet")
+def naming_files(made: OwnTables) -> Iterator[tuple[str, OwnTables]]:
+    """The tables of a scene's mapping that name a file beside it, by their places."""
     scans = made.get("scans")
-    tables = [made.get("printed_table"), sheet.get("background") if isinstance(sheet, dict) else None]
-    for table in (*tables, *(scans.values() if isinstance(scans, dict) else ())):
+    paths = [("printed_table",), ("sheet", "background")]
+    paths += [("scans", name) for name in (scans if isinstance(scans, dict) else ())]
+    for path in paths:
+        table = value_at(made, path)
         if isinstance(table, dict) and isinstance(table.get("file"), str):
-            table["file"] = str(path.parent / table["file"])
-    return made
+            yield ".".join(path), table
 
 
 def put(made: OwnTables, key: str, value: object) -> Problem | None:
