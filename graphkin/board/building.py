@@ -10,14 +10,15 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from graphkin.board.scene_text import changed, frame_in, list_in, points_in, table_in
 from graphkin.errors import CallError, did_you_mean
 from graphkin.files import OwnTables, Tables
-from graphkin.plane import cross, degrees, dot
+from graphkin.plane import cross, degrees, direction, dot
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene import parsed
+from graphkin.scene.tables import xy
 from graphkin.solver import Motion
 from graphkin.words import Phrase
 
@@ -59,8 +60,7 @@ def draft(made: Tables) -> OwnTables:
     points = {str(p): list(z) for p, z in spots.items() if _place(z)}
     for name, z in fixed.items():
         if isinstance(z, Mapping) and str(z.get("from")) in points and _place([z.get("r"), z.get("angle", 0.0)]):
-            (x, y), turn = points[z["from"]], math.radians(z.get("angle", 0.0))
-            points[name] = [x + z["r"] * math.cos(turn), y + z["r"] * math.sin(turn)]
+            points[name] = xy(complex(*points[z["from"]]) + z["r"] * direction(z.get("angle", 0.0)))
     links = {}
     for name, link in table_in(made, "links").items():
         if isinstance(link, Mapping):
@@ -82,17 +82,17 @@ def _place(value: object) -> bool:
     return all(isinstance(x, int | float) and math.isfinite(x) for x in value)
 
 
-def _free_letter(made: Tables, taken: set[str]) -> str:
-    used = taken | points_in(made)
+def _free_letter(made: Tables, changes: Iterable[str] = ()) -> str:
+    """The name of the next point, which is neither in the text nor in changes of its sketch."""
+    used = points_in(made)
     names: list[str] = [*_LETTERS, *(f"{c}{n}" for n in range(1, 100) for c in _LETTERS)]
-    return next(name for name in names if name not in used)
+    return next(name for name in names if name not in used and f"sketch.{name}" not in changes)
 
 
-def next_link(made: Tables) -> str:
+def _next_link(made: Tables) -> str:
     """The number of the next link."""
-    links = table_in(made, "links")
-    fixed, _ = frame_in(made)
-    return next(str(n) for n in range(1, 10_000) if str(n) not in links and str(n) != fixed)
+    taken = {*table_in(made, "links"), frame_in(made)[0]}
+    return next(str(n) for n in range(1, 10_000) if str(n) not in taken)
 
 
 def _at(step: Step, key: str) -> list[float]:
@@ -114,9 +114,7 @@ def _round(value: float) -> float:
     return float(f"{value:.6g}") + 0.0
 
 
-def _end(
-    made: Tables, step: Step, key: str, changes: OwnTables
-) -> tuple[str, list[float]]:
+def _end(made: Tables, step: Step, key: str, changes: OwnTables) -> tuple[str, list[float]]:
     """A point of the mechanism, or a new one at a place, whose sketch is written."""
     value = step.get(key)
     if isinstance(value, str):
@@ -125,9 +123,7 @@ def _end(
             shown = value[:40]
             raise CallError.of(Phrase("point", point=shown), "has no place in the sketch", did_you_mean(shown, spots))
         return value, [float(x) for x in spots[value]]
-    place = _at(step, key)
-    taken = {name.split(".")[1] for name in changes if name.startswith("sketch.")}
-    name = _free_letter(made, taken)
+    place, name = _at(step, key), _free_letter(made, changes)
     changes[f"sketch.{name}"] = place
     return name, place
 
@@ -140,7 +136,7 @@ def _link_of(made: Tables, step: Step, key: str) -> str:
 
 
 def _pivot(made: Tables, step: Step) -> OwnTables:
-    return {f"frame.points.{_free_letter(made, set())}": _at(step, "at")}
+    return {f"frame.points.{_free_letter(made)}": _at(step, "at")}
 
 
 def _fix(made: Tables, step: Step) -> OwnTables:
@@ -156,7 +152,7 @@ def _bar(made: Tables, step: Step) -> OwnTables:
     long = math.dist(p, q)
     if one == other or long == 0.0:
         raise CallError.of("bar", "begins and ends in the same place", "pull it to another place")
-    return {f"links.{next_link(made)}": {"points": [one, other], "length": _round(long)}, **changes}
+    return {f"links.{_next_link(made)}": {"points": [one, other], "length": _round(long)}, **changes}
 
 
 def _point_on(made: Tables, step: Step) -> OwnTables:
@@ -167,10 +163,9 @@ def _point_on(made: Tables, step: Step) -> OwnTables:
     if len(ends) < 2 or any(p not in spots for p in ends):
         raise CallError.of(Phrase("link of name", name=name), "has no axis of its own", "give it two points first")
     origin, end = (complex(*spots[p]) for p in ends)
-    along = (end - origin) / abs(end - origin)
-    z = (complex(*place) - origin) / along
-    letter = _free_letter(made, set())
-    return {f"links.{name}.at.{letter}": [_round(z.real), _round(z.imag)], f"sketch.{letter}": place}
+    local = (complex(*place) - origin) / ((end - origin) / abs(end - origin))
+    letter = _free_letter(made)
+    return {f"links.{name}.at.{letter}": [_round(x) for x in xy(local)], f"sketch.{letter}": place}
 
 
 def _slider(made: Tables, step: Step) -> OwnTables:
@@ -180,10 +175,9 @@ def _slider(made: Tables, step: Step) -> OwnTables:
     fixed, _ = frame_in(made)
     guides = table_in(table_in(made, "frame"), "guides")
     guide = next(name for name in ("h", *(f"h{n}" for n in range(2, 1000))) if name not in guides)
-    angle = _number(step, "angle", 0.0)
     return {
-        f"frame.guides.{guide}": {"through": place, "angle": _round(angle)},
-        f"links.{next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **changes,
+        f"frame.guides.{guide}": {"through": place, "angle": _round(_number(step, "angle", 0.0))},
+        f"links.{_next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **changes,
     }  # fmt: skip
 
 
@@ -191,14 +185,14 @@ def _block(made: Tables, step: Step) -> OwnTables:
     """A block with a pin that slides along a link's own axis."""
     changes: OwnTables = {}
     point, _ = _end(made, step, "point", changes)
-    return {f"links.{next_link(made)}": {"points": [point], "on": _link_of(made, step, "link")}, **changes}
+    return {f"links.{_next_link(made)}": {"points": [point], "on": _link_of(made, step, "link")}, **changes}
 
 
 def _slotted(made: Tables, step: Step) -> OwnTables:
     """A bar of no fixed length from a point, with a slot along its axis."""
     changes: OwnTables = {}
     point, _ = _end(made, step, "point", changes)
-    return {f"links.{next_link(made)}": {"points": [point]}, **changes}
+    return {f"links.{_next_link(made)}": {"points": [point]}, **changes}
 
 
 def _pin(made: Tables, step: Step) -> OwnTables:
@@ -224,11 +218,9 @@ def _drive(made: Tables, step: Step) -> OwnTables:
         guide = table_in(made["frame"], "guides").get(on.partition(".")[2], {})
         through = guide.get("through", [0.0, 0.0])
         start = complex(*spots.get(through, (0, 0))) if isinstance(through, str) else complex(*through)
-        turn = math.radians(guide.get("angle", 0.0))
-        travel = (complex(*spots[ends[0]]) - start) * complex(math.cos(turn), -math.sin(turn))
-        return {"driver": {"slide": name, "travel": _round(travel.real), "velocity": _number(step, "speed", 100.0)}}
-    z = complex(*spots[ends[1]]) - complex(*spots[ends[0]])
-    angle = math.degrees(math.atan2(z.imag, z.real))
+        travel = dot(complex(*spots[ends[0]]) - start, direction(guide.get("angle", 0.0)))
+        return {"driver": {"slide": name, "travel": _round(travel), "velocity": _number(step, "speed", 100.0)}}
+    angle = degrees(complex(*spots[ends[1]]) - complex(*spots[ends[0]]))
     return {"driver": {"link": name, "angle": _round(angle), "omega": _number(step, "speed", 10.0)}}
 
 
@@ -331,13 +323,18 @@ def pulled(
     if point not in kinds:
         raise CallError.of(Phrase("point", point=point), "cannot be pulled", "its place follows from the others")
     if point in scene.frame.points:
-        return _of_frame(raw, scene, point, to), {}
+        entry = raw["frame"]["points"][point]
+        return _entry(scene, f"frame.points.{point}", entry, scene.frame.points, point, to), {}
     if kinds[point] == "driver" and not lengths:
         return {}, _driver(motion, point, to)
-    changes: OwnTables = {}
     if point in raw.get("drawn", {}):
         return _as_drawn(motion, point, to), {}
-    to = _on_guide(scene, point, to)
+    for slide in scene.slidings:  # a block of the frame stays on its guide
+        if slide.b == scene.frame.name and scene.by_name[slide.a].points.get(point) == 0j:
+            guide = slide.guide
+            to = guide.through + dot(to - guide.through, guide.direction) * guide.direction
+            break
+    changes: OwnTables = {}
     for link in scene.links:
         if point in link.points:
             changes |= _of_link(raw, motion, link.name, point, to)
@@ -371,41 +368,22 @@ def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
     return {driver.key: travel / scene.units.metres}
 
 
-def _of_frame(raw: Tables, scene: Mechanism, point: str, to: complex) -> OwnTables:
-    return _entry(scene, f"frame.points.{point}", raw["frame"]["points"][point], scene.frame.points, point, to)
-
-
 def _entry(
     scene: Mechanism, key: str, entry: object, places: Mapping[str, complex], point: str, to: complex
 ) -> OwnTables:
     """An entry that gives the place of a point, or places it from one or two others, so that it lies at a place."""
     if not isinstance(entry, Mapping):
-        return {key: [_length(scene, to.real), _length(scene, to.imag)]}
+        return {key: [_length(scene, x) for x in xy(to)]}
     if isinstance(entry["from"], str):
-        origin = places[entry["from"]]
-        return _polar(scene, key, entry, places[point] - origin, to - origin)
+        before, now = (z - places[entry["from"]] for z in (places[point], to))
+        radius = _length(scene, abs(now))
+        if radius == 0.0:  # it stays
+            return {f"{key}.r": entry["r"]}
+        turned = float(entry.get("angle", 0.0)) + degrees(now / before)
+        return {f"{key}.r": radius, f"{key}.angle": _rounded(math.remainder(turned, 360.0), 0.1)}
     first, second = (places[p] for p in entry["from"])
     side = "left" if cross(second - first, to - first) > 0 else "right"
-    return {
-        f"{key}.r": [_length(scene, abs(to - first)), _length(scene, abs(to - second))], f"{key}.side": side,
-    }  # fmt: skip
-
-
-def _polar(scene: Mechanism, key: str, entry: Tables, before: complex, now: complex) -> OwnTables:
-    radius = _length(scene, abs(now))
-    if radius == 0.0:  # it stays
-        return {f"{key}.r": entry["r"]}
-    turned = float(entry.get("angle", 0.0)) + degrees(now / before)
-    return {f"{key}.r": radius, f"{key}.angle": _angle(turned)}
-
-
-def _on_guide(scene: Mechanism, point: str, to: complex) -> complex:
-    """The foot of a place on the guide of the frame on which the point's block slides."""
-    for slide in scene.slidings:
-        if slide.b == scene.frame.name and scene.by_name[slide.a].points.get(point) == 0j:
-            guide = slide.guide
-            return guide.through + dot(to - guide.through, guide.direction) * guide.direction
-    return to
+    return {f"{key}.r": [_length(scene, abs(to - z)) for z in (first, second)], f"{key}.side": side}
 
 
 def _of_link(raw: Tables, motion: Motion, name: str, point: str, to: complex) -> OwnTables:
@@ -432,10 +410,6 @@ def _length(scene: Mechanism, value: float) -> float:
     lengths = [link.length for link in scene.links if link.length] + [abs(z) for z in scene.frame.points.values()]
     size = max(lengths, default=1.0) / scene.units.metres
     return _rounded(value / scene.units.metres, 10.0 ** (math.floor(math.log10(size)) - 3) if size > 0 else 1e-3)
-
-
-def _angle(value: float) -> float:
-    return _rounded(math.remainder(value, 360.0), 0.1)
 
 
 def _rounded(value: float, step: float) -> float:

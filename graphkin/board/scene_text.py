@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, get_args
 
 from graphkin.errors import CallError, Problem, SceneError, some_of
@@ -179,24 +179,20 @@ _PLACES: Mapping[str, tuple[str, ...]] = {
 def line_of(problem: Problem, text: str) -> int:
     """The line (from 1) of a problem: the line of its key, or of the nearest table that holds it; 0 for a problem of
     the whole text."""
-    where = problem.where
-    if isinstance(where, Phrase) and where.key == "line":
-        return int(str(where.gaps["line"]))
-    known = places(text)
-    for key in _keys_of(where):
-        parts = key.split(".")
-        for n in range(len(parts), 0, -1):
-            if ".".join(parts[:n]) in known:
-                return known[".".join(parts[:n])]
+    where, known = problem.where, places(text)
+    keys = [str(where)]
+    if isinstance(where, Phrase):
+        if where.key == "line":
+            return int(str(where.gaps["line"]))
+        names = {gap: _first(name) for gap, name in where.gaps.items()}
+        keys = [key.format_map(names) for key in _PLACES.get(where.key, ())]
+    for key in keys:
+        holder = key
+        while holder:
+            if holder in known:
+                return known[holder]
+            holder = holder.rpartition(".")[0]
     return 0
-
-
-def _keys_of(where: Wording) -> Iterable[str]:
-    """The keys of the text at which the subject of a problem may stand."""
-    if not isinstance(where, Phrase):
-        return (str(where),)
-    names = {gap: _first(name) for gap, name in where.gaps.items()}
-    return (key.format_map(names) for key in _PLACES.get(where.key, ()))
 
 
 def _first(names: object) -> object:
@@ -219,8 +215,6 @@ def completions(text: str, line: int, column: int) -> list[dict[str, Wording]]:
     -------
     label and detail of each, the detail as a clause in any language
     """
-    from graphkin.scene.scene_tables import SCENE
-
     lines = text.split("\n")
     before = lines[line - 1][:column] if 0 < line <= len(lines) else ""
     head: tuple[str, ...] = ()
