@@ -38,6 +38,7 @@ from graphkin.scene.tables import KeyPath, Units
 from graphkin.words import Phrase, Wording, links_named, listed
 
 AnyBody = TypeVar("AnyBody", Frame, Link)
+Item = TypeVar("Item", str, float)
 
 
 def driver_tables(file: SceneTables) -> dict[str, Driver | DrivenSlide]:
@@ -47,9 +48,9 @@ def driver_tables(file: SceneTables) -> dict[str, Driver | DrivenSlide]:
     return {f"driver.{i}": table for i, table in enumerate(file.driver, 1)}
 
 
-def guides_of(refs: str | Sequence[str] | None) -> list[str]:
-    """Names of guides, written alone or in a list."""
-    return [] if refs is None else [refs] if isinstance(refs, str) else list(refs)
+def items_of(given: Item | Sequence[Item] | None) -> list[Item]:
+    """Names of guides, or angles to them, written alone or in a list."""
+    return [] if given is None else list(given) if isinstance(given, list | tuple) else [given]  # type: ignore[list-item]
 
 
 def references(entry: object) -> tuple[str, ...]:
@@ -226,15 +227,14 @@ MOST_POINTS = 100
 
 def check_size(reading: Reading) -> None:
     """Raises SceneError for a file with too many links, or too many points of a link."""
-    file, problems = reading.file, reading.problems
-    before = len(problems)
-    if len(file.links) > MOST_LINKS:
-        reading.say("links", "found moving links", "at most are possible", count=len(file.links), limit=MOST_LINKS)
-    for name, link in file.links.items():
+    links, before = reading.file.links, len(reading.problems)
+    if len(links) > MOST_LINKS:
+        reading.say("links", "found moving links", "at most are possible", count=len(links), limit=MOST_LINKS)
+    for name, link in links.items():
         if len(link.at) + len(link.guides) + len(link.points) > MOST_POINTS:
             reading.say(f"links.{name}", "has too many points and guides", "at most", most=MOST_POINTS)
-    if len(problems) > before:
-        raise SceneError(*problems)
+    if len(reading.problems) > before:
+        raise SceneError(*reading.problems)
 
 
 def check_texts(reading: Reading) -> None:
@@ -257,9 +257,8 @@ def check_own_points(reading: Reading) -> None:
         if len(points) > 2:
             wanted = Phrase("two at most place in at x y", name=points[2], other=points[2])
             say(f"{where}.points", "found names", wanted, count=len(points), name=listed(points[:6]))
-        twice = sorted({p for p in points if points.count(p) > 1})
-        if twice:
-            say(f"{where}.points", "stands there twice", "a bar has two different points", name=twice[0])
+        if twice := [p for p in points if points.count(p) > 1]:
+            say(f"{where}.points", "stands there twice", "a bar has two different points", name=min(twice))
         if link.length is not None and len(points) < 2 and name not in reading.unsure:
             key = "found with own points" if len(points) != 1 else "found with own point"
             say(f"{where}.length", Phrase(key, length=f"{link.length:g}", count=len(points)),
@@ -329,8 +328,8 @@ def sliding_pairs(reading: Reading) -> tuple[Pair, ...]:
                 where = f"links.{name}.angle_on"
                 reading.say(where, "stands without on", "say what the link slides on")
             continue
-        refs = guides_of(link.on)
-        angles = _angles(link.angle_on) or [0.0] * len(refs)
+        refs = items_of(link.on)
+        angles = items_of(link.angle_on) or [0.0] * len(refs)
         if len(angles) != len(refs):
             reading.say(f"links.{name}.angle_on", "found for guides", "write one number for each guide",
                         count=len(angles), guides=len(refs))
@@ -342,10 +341,6 @@ def sliding_pairs(reading: Reading) -> tuple[Pair, ...]:
                 pin = link.points[0] if link.points else ""
                 pairs.append(Pair.sliding(name, on, PlacedGuide(guide), direction(angle), pin))
     return tuple(pairs)
-
-
-def _angles(angles: float | Sequence[float] | None) -> list[float]:
-    return [angles] if isinstance(angles, int | float) else list(angles or [])
 
 
 def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: list[Pair]) -> Problem | None:
@@ -369,10 +364,10 @@ def pins_in_slots(reading: Reading) -> tuple[Pair, ...]:
         unknown = reading.wrong(
             reading.no_link(f"{where}.of", pin.of) or reading.no_point_of(f"{where}.of", pin.of, point)
         )
-        for ref in guides_of(pin.slots):
+        for ref in items_of(pin.slots):
             on, _, guide = ref.partition(".")
-            problem = reading.no_guide(f"{where}.in", ref) or _pin_problem(where, point, pin, ref, reading, pins)
-            if reading.wrong(problem):
+            here = f"{where}.in"
+            if reading.wrong(reading.no_guide(here, ref) or _pin_problem(here, point, pin, ref, reading, pins)):
                 continue
             if f"{point}/{on}" in reading.pairs:
                 reading.say(where, "is also the name of a sliding pair", "rename link", point=point, on=on)
@@ -381,30 +376,24 @@ def pins_in_slots(reading: Reading) -> tuple[Pair, ...]:
     return tuple(pins)
 
 
-def _pin_problem(
-    where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[Pair]
-) -> Problem | None:
+def _pin_problem(where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[Pair]) -> Problem | None:
     on = ref.partition(".")[0]
-    found: Wording
     if on == pin.of:
-        found, wanted = Phrase("is a guide of link itself", ref=ref, on=on), Phrase("name the guide of another link")
-    elif any(p.pin == point and p.b == on for p in pins):
-        found = Phrase("runs twice in link", point=point, on=on)
-        wanted = Phrase("one slot of link or a turning pair", on=on)
-    elif point in reading.points.get(on, ()):
-        found = Phrase("is also a point of link which is", point=point, on=on)
-        wanted = Phrase("take away from link or the pin away", point=point, on=on)
-    else:
-        return None
-    return Problem(f"{where}.in", found, wanted)
+        return Problem(where, "is a guide of link itself", "name the guide of another link", ref=ref, on=on)
+    if any(p.pin == point and p.b == on for p in pins):
+        return Problem(where, "runs twice in link", "one slot of link or a turning pair", point=point, on=on)
+    if point in reading.points.get(on, ()):
+        return Problem(where, "is also a point of link which is", "take away from link or the pin away", point=point,
+                       on=on)
+    return None
 
 
 def check_rolling(reading: Reading) -> None:
     """Note starts of rolling in a file in which nothing rolls."""
-    started = [name for name, link in reading.links.items() if link.start is not None]
-    rolls = any(pair.rolling for pair in reading.touching)
-    if started and not rolls and not any(map(reading.lost_under, TOUCHING)):
-        for name in started:
+    if any(pair.rolling for pair in reading.touching) or any(map(reading.lost_under, TOUCHING)):
+        return
+    for name, link in reading.links.items():
+        if link.start is not None:
             reading.say(f"links.{name}.start", "nothing rolls here", "leave start out the driver")
 
 
@@ -431,34 +420,24 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
     A link that does not exist is taken for the link with the nearest name; without such a name nothing is returned,
     since the misspelt link may be the link that seems unheld.
     """
-    slides = [(name, ref) for name, link in reading.links.items() for ref in guides_of(link.on)]
-    slides += [(pin.of, ref) for pin in reading.pins.values() for ref in guides_of(pin.slots)]
+    slides = [(name, ref) for name, link in reading.links.items() for ref in items_of(link.on)]
+    slides += [(pin.of, ref) for pin in reading.pins.values() for ref in items_of(pin.slots)]
     touching = [pair.between for pair in reading.touching]
-    sides = [tuple(ref.partition(".")[0] for ref in pair) for pair in (*slides, *touching)]
+    sides = [[ref.partition(".")[0] for ref in pair] for pair in (*slides, *touching)]
     known = reading.points
     meant = {n: n if n in known else "".join(get_close_matches(n, known, n=1)) for pair in sides for n in pair}
     if "" in meant.values():
         return []
-    near: dict[str, set[str]] = {name: set() for name in known}
-    for a, b in sides:
-        near[meant[a]].add(meant[b])
-        near[meant[b]].add(meant[a])
+    holders: dict[str, list[str]] = {}
     for name, points in known.items():
-        near[name] |= {other for other, others in known.items() if other != name and not {*others}.isdisjoint(points)}
-    found: list[tuple[str, ...]] = []
-    seen: set[str] = set()
-    for start in (reading.frame.name, *known):
-        if start in seen:
-            continue
-        reached, todo = {start}, [start]
-        while todo:
-            new = near[todo.pop()] - reached
-            reached |= new
-            todo += new
-        seen |= reached
-        if start != reading.frame.name:
-            found.append(tuple(n for n in known if n in reached))
-    return found
+        for point in points:
+            holders.setdefault(point, []).append(name)
+    island = {name: {name} for name in known}
+    for joined in (*([meant[name] for name in pair] for pair in sides), *holders.values()):
+        whole = set().union(*(island[name] for name in joined))
+        island |= dict.fromkeys(whole, whole)
+    moving = (name for name in known if reading.frame.name not in island[name])
+    return [*dict.fromkeys(tuple(n for n in known if n in island[name]) for name in moving)]
 
 
 # -- carriages ---------------------------------------------------------------------------------------------------------
@@ -475,7 +454,7 @@ def with_carriages(reading: Reading) -> Reading:
 
 
 def _measured(reading: Reading, link: Link) -> Link:
-    refs, drawn = guides_of(link.on), reading.file.drawn
+    refs, drawn = items_of(link.on), reading.file.drawn
     if len(link.points) != 2 or len(refs) != 1 or link.angle_on is not None:
         return link
     first, second = link.points
@@ -525,7 +504,7 @@ def with_bars(reading: Reading) -> Reading:
 
     taken, kept, bars = {*points}, dict[str, Pin](), dict[str, Link]()
     for point, pin in reading.pins.items():
-        where, refs = f"pins.{point}", guides_of(pin.slots)
+        where, refs = f"pins.{point}", items_of(pin.slots)
         straight = [ref for ref in refs if arc_of(ref) is None]
         if straight:
             kept[point] = replace(pin, slots=straight)
@@ -546,8 +525,8 @@ def with_bars(reading: Reading) -> Reading:
 
     def on_bars(name: str, link: Link) -> Link:
         # of the circular slots that it runs in a link has the centres, as points in its own axes
-        refs, at = guides_of(link.on), {**link.at, **given[name]}
-        keys, angles = [arc_of(ref) for ref in refs], [*_angles(link.angle_on), *([0.0] * len(refs))]
+        refs, at = items_of(link.on), {**link.at, **given[name]}
+        keys, angles = [arc_of(ref) for ref in refs], [*items_of(link.angle_on), *([0.0] * len(refs))]
         if any(keys):
             straight = [k for k, key in enumerate(keys) if key is None]
             link = replace(link, on=[refs[k] for k in straight] or None, angle_on=[angles[k] for k in straight] or None)
