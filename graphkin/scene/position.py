@@ -218,7 +218,6 @@ class StatedPosition:
         fixed = self.bodies[self.reading.frame.name].local
         self.given = {**self.drawn, **fixed}
         self.places = dict(self.given)
-        self.news = False
         bodies = self.bodies.values()
         spans = [b.length for b in bodies if b.length]
         spans += [abs(complex(*e)) for b in bodies for e in b.at.values() if isinstance(e, list)]
@@ -239,15 +238,12 @@ class StatedPosition:
         """A place (m) as the file has it."""
         return f"[{z.real / self.reading.metres:.8g}, {z.imag / self.reading.metres:.8g}]"
 
-    def set_turn(self, body: Placement, turn: complex, arm: float) -> None:
-        """Note the direction of a link, unless it is known."""
-        if body.turn is None:
-            body.turn, body.arm, self.news = turn, arm, True
-
-    def set_origin(self, body: Placement, origin: complex) -> None:
-        """Note the place of a link's origin, unless it is known."""
-        if body.origin is None:
-            body.origin, self.news = origin, True
+    @property
+    def known(self) -> int:
+        """How much is known of the position."""
+        bodies = self.bodies.values()
+        parts = (len(b.local) + len(b.guides) + (b.turn is not None) + (b.origin is not None) for b in bodies)
+        return len(self.places) + sum(parts)
 
     def placed(self, name: str, discs: Mapping[tuple[str, str], Disc], link: Link | None) -> PlacedLink:
         """A link with everything in its own axes, in the order of the file; the frame where no table is given."""
@@ -311,17 +307,18 @@ def stated_position(reading: Reading, drivers: Collection[Driver]) -> StatedPosi
 
 def _find(position: StatedPosition) -> None:
     """Place all points and links that follow from placed ones."""
-    while True:
-        position.news = False
+    before = -1
+    while position.known > before or _turn_to_positive_side(position) or _turn_to_drawn_point(position):
+        before = position.known
         for body in position.bodies.values():
             _place_points(position, body)
             _place_guides(position, body)
-            _turn_by_points(position, body)
-            _move_by_points(position, body)
+            if body.turn is None:
+                _turn_by_points(position, body)
+            if body.turn is not None:
+                _move_by_points(position, body, body.turn)
         _turn_by_angles(position)
         _move_by_travels(position)
-        if not (position.news or _turn_to_positive_side(position) or _turn_to_drawn_point(position)):
-            return
 
 
 def _place_points(position: StatedPosition, body: Placement) -> None:
@@ -336,7 +333,6 @@ def _place_points(position: StatedPosition, body: Placement) -> None:
             body.failed.add(point)
         elif place is not None:
             body.local[point] = place
-            position.news = True
 
 
 def _place_guides(position: StatedPosition, body: Placement) -> None:
@@ -350,49 +346,40 @@ def _place_guides(position: StatedPosition, body: Placement) -> None:
             body.failed.add(f".{name}")
         elif guide is not None:
             body.guides[name] = guide
-            position.news = True
 
 
 def _turn_by_points(position: StatedPosition, body: Placement) -> None:
-    if body.turn is not None:
-        return
-    ends = body.own
-    if len(ends) == 2 and all(p in position.places for p in ends):
-        arm = position.places[ends[1]] - position.places[ends[0]]
+    ends, places = body.own, position.places
+    if len(ends) == 2 and all(p in places for p in ends):
+        arm = places[ends[1]] - places[ends[0]]
         if abs(arm) > position.tolerance:
-            position.set_turn(body, arm / abs(arm), abs(arm))
+            body.turn, body.arm = arm / abs(arm), abs(arm)
         return
-    placed = [p for p in body.local if p in position.places]
+    placed = [p for p in body.local if p in places]
     pairs = ((p, q) for i, q in enumerate(placed) for p in placed[:i])
     far = max(pairs, key=lambda pq: abs(body.local[pq[1]] - body.local[pq[0]]), default=None)
     if far:
-        local = body.local[far[1]] - body.local[far[0]]
-        arm = position.places[far[1]] - position.places[far[0]]
+        local, arm = (where[far[1]] - where[far[0]] for where in (body.local, places))
         if min(abs(local), abs(arm)) > position.tolerance:
             turn = arm / local
-            position.set_turn(body, turn / abs(turn), abs(arm))
+            body.turn, body.arm = turn / abs(turn), abs(arm)
 
 
-def _move_by_points(position: StatedPosition, body: Placement) -> None:
-    if body.turn is None:
-        return
-    for point, local in body.local.items():
-        if body.origin is None and point in position.places:
-            position.set_origin(body, position.places[point] - body.turn * local)
-    if body.origin is None:
-        return
-    for point, local in body.local.items():
-        if point not in position.places:
-            position.places[point] = body.origin + body.turn * local
-            position.news = True
+def _move_by_points(position: StatedPosition, body: Placement, turn: complex) -> None:
+    placed = (point for point in body.local if point in position.places)
+    if body.origin is None and (point := next(placed, None)) is not None:
+        body.origin = position.places[point] - turn * body.local[point]
+    if body.origin is not None:
+        for point, local in body.local.items():
+            position.places.setdefault(point, body.origin + turn * local)
 
 
 def _turn_by_angles(position: StatedPosition) -> None:
     for _, body, base, zero, turn in position.relations():
-        if base.turn is not None:
-            position.set_turn(body, base.turn * zero * turn, base.arm)
-        elif body.turn is not None:
-            position.set_turn(base, body.turn / (zero * turn), body.arm)
+        if body.turn is None and base.turn is not None:
+            body.turn, body.arm = base.turn * zero * turn, base.arm
+        elif base.turn is None and body.turn is not None:
+            base.turn, base.arm = body.turn / (zero * turn), body.arm
 
 
 def _move_by_travels(position: StatedPosition) -> None:
@@ -403,10 +390,11 @@ def _move_by_travels(position: StatedPosition) -> None:
             continue
         slider = position.bodies[pair.a]
         along = guide.through + guide.direction * position.travels[pair.key]
-        if (place := rail.world(along)) is not None and not slider.local.keys() & position.places.keys():
-            position.set_origin(slider, place)
-        elif rail.turn is not None and slider.origin is not None and not rail.local.keys() & position.places.keys():
-            position.set_origin(rail, slider.origin - rail.turn * along)
+        placed = position.places.keys()
+        if slider.origin is None and not slider.local.keys() & placed:
+            slider.origin = rail.world(along)
+        elif slider.origin is not None and rail.turn and rail.origin is None and not rail.local.keys() & placed:
+            rail.origin = slider.origin - rail.turn * along
 
 
 def _turn_to_positive_side(position: StatedPosition) -> bool:
@@ -429,7 +417,7 @@ def _turn_to_positive_side(position: StatedPosition) -> bool:
             continue
         s = math.sqrt((abs(arm) - k.imag) * (abs(arm) + k.imag)) - k.real
         sense = arm / (k + s)
-        position.set_turn(rail, sense / abs(sense) / guide.direction, abs(arm))
+        rail.turn, rail.arm = sense / abs(sense) / guide.direction, abs(arm)
         return True
     return False
 
@@ -450,7 +438,7 @@ def _turn_to_drawn_point(position: StatedPosition) -> bool:
                 if p in position.places and body.own[0] in position.places]
         arm = next((w for w in ways if abs(w) > position.tolerance), None)
         if arm is not None:
-            position.set_turn(body, arm / abs(arm), abs(arm))
+            body.turn, body.arm = arm / abs(arm), abs(arm)
             return True
     return False
 
@@ -508,21 +496,20 @@ def starts_of(position: StatedPosition, touching: Iterable[HigherPair]) -> dict[
 
 def check_placed_twice(position: StatedPosition) -> None:
     """Note points that the file places twice in one link, or fixes and draws, at different places."""
+    say = position.reading.say
     for body in position.bodies.values():
         for point in body.own:
             local = _place_of(body.where, body.at.get(point), position.reading.metres, body.local)
             if isinstance(local, complex) and point in body.local:
-                place_as_end = body.local[point]
-                if abs(local - place_as_end) > position.tolerance:
-                    places = {"pair": position.pair(local), "other": position.pair(place_as_end)}
-                    found = Phrase("puts it at but as an own point", **places)
-                    position.reading.say(f"{body.where}.at.{point}", found, "leave one of the two out or correct")
+                as_end = body.local[point]
+                if abs(local - as_end) > position.tolerance:
+                    say(f"{body.where}.at.{point}", "puts it at but as an own point",
+                        "leave one of the two out or correct", pair=position.pair(local), other=position.pair(as_end))
         for point, place in body.local.items() if body.where == "frame" else ():
             drawn = position.drawn.get(point, place)
             if abs(drawn - place) > position.tolerance:
-                places = {"pair": position.pair(drawn), "other": position.pair(place)}
-                found = Phrase("found but it is a fixed point at", **places)
-                position.reading.say(f"drawn.{point}", found, "leave it out or correct it")
+                say(f"drawn.{point}", "found but it is a fixed point at", "leave it out or correct it",
+                    pair=position.pair(drawn), other=position.pair(place))
 
 
 def check_all_found(position: StatedPosition) -> None:
@@ -569,7 +556,7 @@ def check_held_distances(touching: Iterable[HigherPair], position: StatedPositio
             first, second = (points[c.carrier][centre] for centre in c.centres)
             held, wanted = abs(second - first), abs(c.apart)
             if abs(held - wanted) > GIVEN_TWICE * max(map(abs, c.radii)):
-                radii = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
+                radii = {"held": position.number(held), "wanted": position.number(wanted)}
                 reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **radii),
                             "correct a radius or the distance")
         if not c.flat and c.centres[0] == c.centres[1]:
@@ -590,7 +577,7 @@ def check_held_distances(touching: Iterable[HigherPair], position: StatedPositio
 
 def check_distances(position: StatedPosition) -> None:
     """Note places so far away that the digits of a coordinate lose the length of a bar."""
-    bars = [(b.length, b) for b in position.bodies.values() if b.length]
+    bars = [(b.length, b.name) for b in position.bodies.values() if b.length]
     if not bars:
         return
     short, body = min(bars, key=lambda bar: bar[0])
@@ -599,18 +586,17 @@ def check_distances(position: StatedPosition) -> None:
         points = f"{b.where}.at" if b.where != "frame" else "frame.points"
         places += [(abs(z), f"{points}.{p}") for p, z in b.local.items() if p not in b.own]
         places += [(abs(g.through), f"{b.where}.guides.{n}") for n, g in b.guides.items() if n]
-    places += [(length, f"links.{b.name}.length") for length, b in bars]
+    places += [(length, f"links.{name}.length") for length, name in bars]
     far, where = max(places, key=lambda place: place[0])
     if far > FARTHEST * short:
-        metres = position.reading.metres
+        distance, shortest = (f"{length / position.reading.metres:.3g}" for length in (far, short))
         position.reading.say(where, "lies away beside a bar of link", "too far apart sixteen digits hold at most",
-                             distance=f"{far / metres:.3g}", short=f"{short / metres:.3g}", body=body.name,
-                             farthest=f"{FARTHEST:.0e}")
+                             distance=distance, short=shortest, body=body, farthest=f"{FARTHEST:.0e}")
 
 
 def check_agreement(position: StatedPosition) -> None:
     """Note data given twice that differ by more than 1e-6 of the size, with both values."""
-    metres = position.reading.metres
+    say = position.reading.say
     for body in position.bodies.values():
         _check_points(position, body)
     for pair in position.reading.slides:
@@ -620,23 +606,20 @@ def check_agreement(position: StatedPosition) -> None:
             beside = abs(cross(guide.direction, local - guide.through))
             if beside > position.tolerance * _reach(rail, local):
                 where = f"pins.{pair.pin}.in" if pair.of else f"links.{pair.a}.on"
-                position.reading.say(where, "the given places put it beside the guide",
-                                     "correct a coordinate or the guide", beside=f"{beside / metres:.6g}",
-                                     ref=pair.gaps["guide"])
+                say(where, "the given places put it beside the guide", "correct a coordinate or the guide",
+                    beside=f"{beside / position.reading.metres:.6g}", ref=pair.gaps["guide"])
     for where, body, base, zero, turn in position.relations():
         if body.turn is not None and base.turn is not None:
             # by how far it moves the points that gave it
             seen = body.turn / (base.turn * zero)
             if abs(seen - turn) * min(body.arm, base.arm, position.size) > position.tolerance:
-                said = where or Phrase("driver.angle of link", link=body.name)
-                position.reading.say(said, "found deg but the given places make it", "one of the two is wrong",
-                                     degrees=f"{degrees(turn):.10g}", other=f"{degrees(seen):.10g}")
+                say(where or Phrase("driver.angle of link", link=body.name), "found deg but the given places make it",
+                    "one of the two is wrong", degrees=f"{degrees(turn):.10g}", other=f"{degrees(seen):.10g}")
     for key, travel in position.travels.items():
         seen_travel = position.travel_of(key)
         if seen_travel is not None and abs(seen_travel - travel) > position.tolerance:
-            position.reading.say(Phrase("driver.travel of", key=key), "found but the given places make it",
-                                 "one of the two is wrong", start=position.number(travel),
-                                 value=position.number(seen_travel))
+            say(Phrase("driver.travel of", key=key), "found but the given places make it", "one of the two is wrong",
+                start=position.number(travel), value=position.number(seen_travel))
 
 
 def _reach(body: Placement, local: complex) -> float:
@@ -646,19 +629,17 @@ def _reach(body: Placement, local: complex) -> float:
 
 def _check_points(position: StatedPosition, body: Placement) -> None:
     """Note points of one link whose places in the link and in the world differ."""
-    ends, given = body.own, position.given
+    ends, given, say = body.own, position.given, position.reading.say
     if len(ends) == 2 and body.length is not None and all(p in given for p in ends):
         drawn = abs(given[ends[1]] - given[ends[0]])
         if abs(drawn - body.length) > position.tolerance:
-            position.reading.say(f"links.{body.name}.length", "found but and are given apart",
-                                 "one of the two is wrong", length=position.number(body.length), name=ends[0],
-                                 other=ends[1], value=position.number(drawn))
+            say(f"links.{body.name}.length", "found but and are given apart", "one of the two is wrong", name=ends[0],
+                other=ends[1], length=position.number(body.length), value=position.number(drawn))
             return
     for point, local in body.local.items():
         place = body.world(local)
         if place is None or point not in given:
             continue
         if abs(given[point] - place) > position.tolerance * _reach(body, local):
-            position.reading.say(Phrase("point", point=point), "link puts it at but it is given",
-                                 "one of the two is wrong", body=body.name, pair=position.pair(place),
-                                 other=position.pair(given[point]))
+            say(Phrase("point", point=point), "link puts it at but it is given", "one of the two is wrong",
+                body=body.name, pair=position.pair(place), other=position.pair(given[point]))
