@@ -174,6 +174,10 @@ class Reading:
         self.problems.extend(there)
         return bool(there)
 
+    def place(self, link: str, point: str) -> complex:
+        """A point of a link in the link's own axes (m); 0 where it is unknown."""
+        return self.places.get(link, {}).get(point, 0j)
+
     def is_unread(self, ref: str) -> bool:
         """Whether the link of a sliding pair slides on what is not there, so that the pair is no second problem."""
         name = ref.partition("/")[0]

@@ -154,10 +154,9 @@ def _angle_problems(where: str, driver: Driver, reading: Reading, lost: set[str]
     if driver.of is not None:
         if "speed" not in rates and "speed" not in lost:
             yield Problem(f"{where}.of", "names a point whose speed is not given", "write speed or leave it out")
-        moving_points = [p for n, points in reading.points.items() if n != frame for p in points]
-        if driver.of not in moving_points and not reading.unsure:
-            wanted = did_you_mean(driver.of, moving_points)
-            yield Problem(f"{where}.of", "no moving link has a point", wanted, name=driver.of)
+        moving = [p for n, points in reading.points.items() if n != frame for p in points]
+        if driver.of not in moving and not reading.unsure:
+            yield Problem(f"{where}.of", "no moving link has a point", did_you_mean(driver.of, moving), name=driver.of)
         if len(reading.drivers) > 1:
             yield Problem(f"{where}.speed", "the speed of a point tells the rate", "give omega")
     for name, rate in rates.items():
@@ -274,7 +273,9 @@ def stated_driver(driver: model.Driver, tables: Iterable[Driver | DrivenSlide], 
     ----------
     tables : of the file, where one of them may be that of this driver
     """
-    table: Any = next((in_si(table, units) for table in tables if _drives(table, driver)), None)
+    # a sliding pair may be written by its sliding link alone
+    key, names = ("link", (driver.link,)) if driver.turns else ("slide", (driver.slide, driver.slide.split("/")[0]))
+    table: Any = next((in_si(table, units) for table in tables if getattr(table, key, None) in names), None)
     value, rate, second = (None, None, 0.0) if driver.law is not None else driver.values
     time = None if driver.law is None else driver.law.time
     if driver.distance is not None:
@@ -291,53 +292,33 @@ def stated_driver(driver: model.Driver, tables: Iterable[Driver | DrivenSlide], 
                             alpha=second, sense=None, position=position, time=time), units)  # fmt: skip
 
 
-def _drives(table: Driver | DrivenSlide, driver: model.Driver) -> bool:
-    """Whether a table is that of a driver: of the same link, or of the same sliding pair, however its name is written.
-    """
-    if isinstance(table, Driver):
-        return driver.turns and table.link == driver.link
-    return table.slide in (driver.slide, driver.slide.split("/")[0])
-
-
 def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
     """The law in a driver's table, in rad or m and s; its problems are noted."""
-    ways = {
-        "table": bool(law.table),
-        "pieces": bool(law.pieces),
-        "by": any(x is not None for x in (law.to, law.rise, law.duration, law.by)),
-    }
+    single = any(x is not None for x in (law.to, law.rise, law.duration, law.by))
+    ways = {"table": law.table, "pieces": law.pieces, "by": single}
     given = [name for name, there in ways.items() if there]
     if len(given) != 1:
-        found = Phrase("says its motion by", ways=listed(given)) if given else Phrase("says nothing")
-        reading.say(where, found, "write from and to or pieces or a table")
+        found = "says its motion by" if given else "says nothing"
+        reading.say(where, found, "write from and to or pieces or a table", ways=listed(given))
         return None
-    if given == ["table"]:
+    if law.table:
         return _by_table(where, law, unit, reading)
     before = len(reading.problems)
     if law.origin is None:
         reading.say(f"{where}.from", "is missing", "write the driver's value at 0 s")
-    pieces = _single_piece(where, law, unit, reading) if given == ["by"] else _pieces_in_turn(where, law, unit, reading)
-    return None if len(reading.problems) > before else MotionLaw(tuple(pieces))
-
-
-def _single_piece(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[LiftPiece]:
-    """The piece of a law that goes from one value to another."""
-    if (law.to is None) == (law.rise is None):
-        both = Phrase("stands beside rise") if law.to is not None else Phrase("is missing")
-        reading.say(f"{where}.to", both, "write to the value at the end or")
-    if law.duration is None:
-        reading.say(f"{where}.duration", "is missing", "write the seconds that it takes")
-    if law.by is None:
-        reading.say(f"{where}.by", "is missing", "write by cycloidal harmonic 345 or another law")
-    start = law.origin or 0.0
-    end = law.to if law.to is not None else start + (law.rise or 0.0)
-    return [LiftPiece(0.0, law.duration or 1.0, start * unit, end * unit, form_of(law.by))]
-
-
-def _pieces_in_turn(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[LiftPiece]:
-    """The pieces of a law, one after the other."""
     pieces: list[LiftPiece] = []
-    time, low = 0.0, (law.origin or 0.0) * unit
+    start = law.origin or 0.0
+    if single:
+        if (law.to is None) == (law.rise is None):
+            found = "is missing" if law.to is None else "stands beside rise"
+            reading.say(f"{where}.to", found, "write to the value at the end or")
+        if law.duration is None:
+            reading.say(f"{where}.duration", "is missing", "write the seconds that it takes")
+        if law.by is None:
+            reading.say(f"{where}.by", "is missing", "write by cycloidal harmonic 345 or another law")
+        end = law.to if law.to is not None else start + (law.rise or 0.0)
+        pieces.append(LiftPiece(0.0, law.duration or 1.0, start * unit, end * unit, form_of(law.by)))
+    time, low = 0.0, start * unit
     for i, piece in enumerate(law.pieces, 1):
         here = f"{where}.pieces.{i}"
         reading.wrong(*piece.problems(here))
@@ -346,7 +327,7 @@ def _pieces_in_turn(where: str, law: DriverLaw, unit: float, reading: Reading) -
             reading.say(here, "ends at s where it begins at", "seconds grow", to=f"{piece.to:g}", time=f"{time:g}")
         pieces.append(LiftPiece(time, piece.to, low, high, form_of(piece.by)))
         time, low = piece.to, high
-    return pieces
+    return None if len(reading.problems) > before else MotionLaw(tuple(pieces))
 
 
 def _by_table(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:

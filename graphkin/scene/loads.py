@@ -65,7 +65,7 @@ def _place(reading: Reading, where: str, link: str, at: str | Sequence[float]) -
     if not isinstance(at, str):
         return complex(*at)
     reading.wrong(reading.no_point_of(where, link, at))
-    return reading.places.get(link, {}).get(at, 0j)
+    return reading.place(link, at)
 
 
 def _pair(reading: Reading, where: str, ref: str) -> str:
@@ -82,17 +82,16 @@ def _pair(reading: Reading, where: str, ref: str) -> str:
 
 def _mass(reading: Reading, link: str, table: Mass, g: float) -> LinkMass | None:
     """The mass of a link, where ``g`` (m/s2) makes its weight."""
-    where = f"masses.{link}"
+    where, si = f"masses.{link}", in_si(table, reading.units)
     if _not_moving(reading, where, link):
         return None
-    at = _place(reading, f"{where}.at", link, in_si(table, reading.units).at)
+    at = _place(reading, f"{where}.at", link, si.at)
     if reading.lost_under("masses", link):
         return None
     if (table.mass is None) == (table.weight is None):
-        found = Phrase("has neither mass nor weight") if table.mass is None else Phrase("has both mass and weight")
+        found = "has neither mass nor weight" if table.mass is None else "has both mass and weight"
         reading.say(where, found, "give one of them")
         return None
-    si = in_si(table, reading.units)
     heavy = si.weight / g if si.weight is not None else si.mass or 0.0
     return LinkMass(link, at, heavy, si.inertia)
 
@@ -104,8 +103,8 @@ def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
         return None
     lost = reading.lost_under("loads", name)
     if (load.force is None) == (load.moment is None) and not lost:
-        neither, both = Phrase("has neither force nor moment"), Phrase("has both force and moment")
-        say(where, neither if load.force is None else both, "give one of them")
+        found = "has neither force nor moment" if load.force is None else "has both force and moment"
+        say(where, found, "give one of them")
         return None
     phase = _phase(reading, f"{where}.when", load.when) if load.when is not None else None
     if si.moment is not None:
@@ -137,40 +136,38 @@ def _spring(reading: Reading, name: str, table: Spring) -> SpringOn | None:
     where, say, known = f"springs.{name}", reading.say, len(reading.problems)
     if name in reading.file.loads:
         say(where, "a load is called too", "another name both would be p_", name=name)
+    nothing = Phrase("nothing")
     if len(table.between) != 2 or table.between[0] == table.between[1]:
-        given = listed(table.between) or Phrase("nothing")
-        say(f"{where}.between", "found value", "two different points", value=given)
+        say(f"{where}.between", "found value", "two different points", value=listed(table.between) or nothing)
     elif table.links is not None and len(table.links) != 2:
-        given = listed(table.links) or Phrase("nothing")
-        say(f"{where}.links", "found value", "two links one for each point", value=given)
+        say(f"{where}.links", "found value", "two links one for each point", value=listed(table.links) or nothing)
     if len(reading.problems) > known:
         return None
-    ends = [_end(reading, where, point, table.links[k] if table.links else "") for k, point in enumerate(table.between)]
-    if len(reading.problems) > known or "" in ends:
+    p, q = table.between
+    a, b = (_end(reading, where, point, link) for point, link in zip((p, q), table.links or ("", ""), strict=True))
+    if len(reading.problems) > known or not (a and b):
         return None
-    if ends[0] == ends[1]:
-        say(where, "both ends are on link", "two links where several have a point write", ends=ends[0])
+    if a == b:
+        say(where, "both ends are on link", "two links where several have a point write", ends=a)
         return None
-    (a, b), (p, q) = ends, table.between
-    at = reading.places.get(a, {}).get(p, 0j), reading.places.get(b, {}).get(q, 0j)
-    si = in_si(table, reading.units)
+    at, si = (reading.place(a, p), reading.place(b, q)), in_si(table, reading.units)
     return SpringOn(name, (p, q), (a, b), at, si.rate, si.free, si.preload)
 
 
 def _end(reading: Reading, where: str, point: str, link: str) -> str:
     """The link of a spring's end: the given link, or the first link with the point, the frame before others."""
+    frame, here = reading.frame.name, f"{where}.{'links' if link else 'between'}"
     if not link:
-        missing = reading.wrong(reading.no_point(f"{where}.between", point))
-        order = [reading.frame.name, *sorted(reading.links, key=lambda name: reading.links[name].redundant)]
-        having = [n for n in order if point in reading.places.get(n, {})]
+        missing = reading.wrong(reading.no_point(here, point))
+        order = [frame, *sorted(reading.links, key=lambda name: reading.links[name].redundant)]
+        on = next((n for n in order if point in reading.places.get(n, {})), "")
         unread = "" in reading.unsure or any(point in points for points in reading.points.values())
-        if not having and not missing and not unread:
-            reading.say(f"{where}.between", "is placed on no link", "a point of a link or the frame", point=point)
-        on = having[0] if having else ""
-        return "" if on != reading.frame.name and on and _not_moving(reading, f"{where}.between", on) else on
-    if link != reading.frame.name and _not_moving(reading, f"{where}.links", link):
+        if not on and not missing and not unread:
+            reading.say(here, "is placed on no link", "a point of a link or the frame", point=point)
+        return "" if on not in (frame, "") and _not_moving(reading, here, on) else on
+    if link != frame and _not_moving(reading, here, link):
         return ""
-    reading.wrong(reading.no_point_of(f"{where}.links", link, point))
+    reading.wrong(reading.no_point_of(here, link, point))
     return link
 
 
@@ -178,8 +175,8 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> LoadPhase | None:
     """When a load acts, in SI, its pair by its key."""
     say = reading.say
     if (when.stroke is None) == (when.driver is None):
-        neither, both = Phrase("has neither stroke nor driver"), Phrase("has both stroke and driver")
-        say(where, neither if when.stroke is None else both, "give one of them")
+        found = "has neither stroke nor driver" if when.stroke is None else "has both stroke and driver"
+        say(where, found, "give one of them")
         return None
     if when.stroke is not None:
         if not when.start < when.end <= 1.0:
@@ -194,13 +191,14 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> LoadPhase | None:
             say(f"{where}.{beside}", "stands beside driver", "it is of a stroke the driver's two")
     slides = reading.along
     start, end = (value * reading.units.of("length" if slides else "angle").si for value in when.driver)
-    found = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
+    end = end if slides or end >= start else end + math.tau
+    given = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
     if slides and start >= end:
-        say(f"{where}.driver", found, "the travel grows between them")
-    elif not slides and not 0.0 < (span := end - start if end >= start else end - start + math.tau) <= TURN:
-        wanted = Phrase("two different values") if span <= 0.0 else Phrase("at most a turn lies between them")
-        say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
-    return LoadPhase(start=start, end=end if slides or end >= start else end + math.tau)
+        say(f"{where}.driver", given, "the travel grows between them")
+    elif not slides and not 0.0 < end - start <= TURN:
+        wanted = Phrase("two different values" if end <= start else "at most a turn lies between them")
+        say(f"{where}.driver", given, Phrase("a load that acts always has no when", wanted=wanted))
+    return LoadPhase(start=start, end=end)
 
 
 def _balance(reading: Reading, table: Balance | None) -> LoadOn | None:
