@@ -118,8 +118,9 @@ class Shelf:
             raise CallError.of(name[:60] or Phrase("the file"), "no file was opened that could be written",
                                "start with a folder graphkin open folder")
         if name != self.only and (self.only or not _NAME.fullmatch(name)):
-            wanted = "only may be written here" if self.only else "a name like four-bar.toml is wanted"
-            raise CallError.of(f'"{name[:60]}"', "cannot be written of nothing", wanted, names=self.only)
+            only = Phrase("only may be written here", names=self.only)
+            wanted = only if self.only else "a name like four-bar.toml is wanted"
+            raise CallError.of(f'"{name[:60]}"', "cannot be written of nothing", wanted)
         path = self.folder / name
         if path.is_symlink() and self.only != name:
             raise CallError.of(name, "is a link to another place", "open that file itself")

@@ -298,8 +298,8 @@ def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> Mot
     ways = {"table": law.table, "pieces": law.pieces, "by": single}
     given = [name for name, there in ways.items() if there]
     if len(given) != 1:
-        found = "says its motion by" if given else "says nothing"
-        reading.say(where, found, "write from and to or pieces or a table", ways=listed(given))
+        found = Phrase("says its motion by", ways=listed(given)) if given else "says nothing"
+        reading.say(where, found, "write from and to or pieces or a table")
         return None
     if law.table:
         return _by_table(where, law, unit, reading)
