@@ -525,14 +525,9 @@ def _weighing(parameter: Array, weight: Array) -> Array:
 
 
 def resolve(
-    curves: Callable[[Array], tuple[Array, Array]],
-    low: float,
-    high: float,
-    periodic: bool = False,
-    floor: Array | float = 0.0,
-    weight: Array | None = None,
-    seams: Array | None = None,
-) -> Pieces:
+    curves: Callable[[Array], tuple[Array, Array]], low: float, high: float, periodic: bool = False,
+    floor: Array | float = 0.0, weight: Array | None = None, seams: Array | None = None,
+) -> Pieces:  # fmt: skip
     """Represent curves to rounding.
 
     Parameters

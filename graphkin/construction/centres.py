@@ -189,11 +189,10 @@ class Centres:
         """The chart about the middle of all points and of all links' origins."""
         spots = [self.point(p) for p, names in self.scene.holders.items() if any(n in self.poses for n in names)]
         spots += [self.poses[n].origin for n in self.names]
-        left, right = min(z.real for z in spots), max(z.real for z in spots)
-        low, high = min(z.imag for z in spots), max(z.imag for z in spots)
-        half = abs(complex(right - left, high - low)) / 2
-        return ProjectiveChart(complex(left + right, low + high) / 2, half or self.scene.size * self.mm)
-
+        xs, ys = [z.real for z in spots], [z.imag for z in spots]
+        half = abs(complex(max(xs) - min(xs), max(ys) - min(ys))) / 2
+        middle = complex(min(xs) + max(xs), min(ys) + max(ys)) / 2
+        return ProjectiveChart(middle, half or self.scene.size * self.mm)
 
     # -- velocities by centres -----------------------------------------------------------------------------------------
 
@@ -320,15 +319,15 @@ def measured(links: Centres) -> dict[str, tuple[complex, float, float]]:
     motions = {ground: (0j, 0.0, 0.0)}
     for name, rate in sheet.rates["omega"].items():
         points = sheet.structure.links[name].points
-        for ref, end in ends.items():
-            if name != ground and (ref.link == name or (not ref.link and ref.point in points)):
-                arm = links.chart.middle - sheet.points[PointRef(ref.point)]
-                read, lost = rate.vector, 0.0
-                if read and rate.mm == 0.0 and rate.arm:
-                    tip, tail = (ends.get(point, 0j) if point else 0j for point in (read.of, read.to))
-                    lost = abs(tip - tail) * sheet.scales.velocity / rate.arm
-                motions[name] = end * per_mm + 1j * rate.value * arm, rate.value, lost
-                break
+        ref = next((r for r in ends if r.link == name or (not r.link and r.point in points)), None)
+        if name == ground or ref is None:
+            continue
+        arm = links.chart.middle - sheet.points[PointRef(ref.point)]
+        read, lost = rate.vector, 0.0
+        if read and rate.mm == 0.0 and rate.arm:
+            tip, tail = (ends.get(point, 0j) if point else 0j for point in (read.of, read.to))
+            lost = abs(tip - tail) * sheet.scales.velocity / rate.arm
+        motions[name] = ends[ref] * per_mm + 1j * rate.value * arm, rate.value, lost
     return motions
 
 
@@ -427,9 +426,8 @@ class CircleDiagram:
         """Add a line for a missing centre: it crosses the drawn ones."""
         pair, lines = relation.pair, self.lines[relation.pair]
         for other in lines:
-            error, least = other.error + relation.error + ROUNDING, math.inf
-            if pair in self.best:
-                least = self.best[pair].error
+            error = other.error + relation.error + ROUNDING
+            least = self.best[pair].error if pair in self.best else math.inf
             if error >= least:
                 continue  # however well they cross
             place, sine = wedge(other.line, relation.line)
@@ -520,8 +518,7 @@ def _otherwise(
     """
     pair = diagram.to_measure(motions)
     # too few triangles, or lines that fall together
-    count = len(diagram.lines[pair])
-    links = {"first": pair[0], "second": pair[1]}
+    count, links = len(diagram.lines[pair]), {"first": pair[0], "second": pair[1]}
     few, together = Phrase("centre few lines", **links, lines=count), Phrase("centre lines together", **links)
     why = few if count < 2 else together
     if not motions.keys() >= {*pair}:

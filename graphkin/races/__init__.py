@@ -4,10 +4,10 @@ programs, and as a chart: cost of a position against the largest error, velocity
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -245,14 +245,8 @@ def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> 
 
 def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, float]]:
     """Entries with a value of this kind, with cost and error."""
-    points = []
-    for e in entries:
-        cost, error = (
-            (e.velocity_cost, e.velocity_error) if kind == "velocity" else (e.acceleration_cost, e.acceleration_error)
-        )
-        if error is not None and math.isfinite(error):
-            points.append((e, cost, max(error, LOWEST * 1.5)))
-    return points
+    of_kind = ((e, getattr(e, f"{kind}_cost"), getattr(e, f"{kind}_error")) for e in entries)
+    return [(e, cost, max(error, LOWEST * 1.5)) for e, cost, error in of_kind if error is not None and isfinite(error)]
 
 
 def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> None:

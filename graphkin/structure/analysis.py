@@ -270,13 +270,9 @@ def components(needs: Mapping[N, Sequence[N]]) -> list[tuple[N, ...]]:
 
 
 def _in_order(
-    structure: Structure,
-    nodes: Sequence[Node],
-    unknowns: Sequence[Sequence[Unknown]],
-    given: Mapping[int, Unknown],
-    known: set[str],
-    turned: Mapping[str, TurnedBy],
-) -> tuple[Element, ...]:
+    structure: Structure, nodes: Sequence[Node], unknowns: Sequence[Sequence[Unknown]], given: Mapping[int, Unknown],
+    known: set[str], turned: Mapping[str, TurnedBy],
+) -> tuple[Element, ...]:  # fmt: skip
     """The elements that place some nodes, each after those it needs."""
     rank = _ranks(structure)
 

@@ -45,12 +45,17 @@ def relations_of(scene: Mechanism, meshes: Iterable[PlacedGear]) -> tuple[Rollin
         rolled: tuple[tuple[Coordinate, Fraction], ...] = ((wheel, part), (other, other_part))
         if mesh.is_rack:
             rolled = (("travel", mesh.slide), Fraction(mesh.sense)), (wheel, part)
-        terms: dict[Coordinate, Fraction] = {}
-        for coordinate, factor in (*rolled, (carrier, -part - other_part)):
-            terms[coordinate] = terms.get(coordinate, Fraction(0)) + factor
-        terms = {c: f for c, f in terms.items() if f and c != ("angle", scene.frame.name)}
+        terms = _summed((*rolled, (carrier, -part - other_part)), scene.frame.name)
         relations.append(RollingRelation(mesh.name, terms, mesh.members))
     return tuple(relations)
+
+
+def _summed(terms: Iterable[tuple[Coordinate, Fraction]], frame: str) -> dict[Coordinate, Fraction]:
+    """A sum with one term for each coordinate, without the angle of the frame."""
+    total: dict[Coordinate, Fraction] = {}
+    for coordinate, factor in terms:
+        total[coordinate] = total.get(coordinate, Fraction(0)) + factor
+    return {coordinate: f for coordinate, f in total.items() if f and coordinate != ("angle", frame)}
 
 
 Unknown = Coordinate | int
@@ -146,13 +151,9 @@ def driven_twice(structure: Structure) -> list[Driver]:
         for name in structure.turning_with(link):
             alike.setdefault(name, link)
 
-    def row(terms: Iterable[tuple[Coordinate, Fraction]]) -> Row:
-        added: Row = {}
-        for (kind, name), factor in terms:
-            coordinate = (kind, alike[name] if kind == "angle" else name)
-            if coordinate != ("angle", scene.frame.name):
-                added[coordinate] = added.get(coordinate, Fraction(0)) + factor
-        return {coordinate: factor for coordinate, factor in added.items() if factor}
+    def row(terms: Iterable[tuple[Coordinate, Fraction]]) -> Mapping[Coordinate, Fraction]:
+        named = (((kind, alike[name] if kind == "angle" else name), f) for (kind, name), f in terms)
+        return _summed(named, scene.frame.name)
 
     rows: Rows = {}
     for relation in relations_of(scene, meshes_of(scene, structure.touching, structure.links)):

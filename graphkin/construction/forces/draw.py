@@ -31,7 +31,6 @@ from graphkin.construction.forces.position import DrawnPosition, force_groups, f
 from graphkin.construction.forces.steps import ForceGroup, ForceState, ForceStep, ForceVector, Lever, MomentTerm
 from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, added_up, cross, unit
-from graphkin.scene.model import Driver
 from graphkin.scene.pairs import PlacedGuide
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, analyse, pin_in_guide
@@ -73,7 +72,7 @@ def with_forces(sheet: Sheet, hand: Instrument = EXACT, scales: ForceScales | No
         _state(held, hand, scales, from_outside(drawn, growing, inertias, springs, with_edges))
         for with_edges in ((False, True) if None in sheet.acting.values() else (False,))
     ]
-    states = [replace(state, levers=levers_of(sheet, state, hand)) for state in states]
+    states = [replace(state, levers=tuple(_levers(sheet, state, hand))) for state in states]
     scales_used = replace(sheet.scales, force=scales[()])
     return _numbered(replace(sheet, scales=scales_used, inertias=inertias, springs=springs, forces=tuple(states)))
 
@@ -214,46 +213,30 @@ TURN = -1j
 """Turned clockwise: the moment of a force about the pole, counter-clockwise positive, is its power then."""
 
 
-def levers_of(sheet: Sheet, state: ForceState, hand: Instrument) -> tuple[Lever, ...]:
-    """A lever for each driver, or for the balance in its place; none where that does not move."""
+def _levers(sheet: Sheet, state: ForceState, hand: Instrument) -> Iterator[Lever]:
+    """A lever for each driver, or for the balance in its place: the sum of all moments about the pole is zero; none
+    where the balancing load does no work."""
     drivers = sheet.scene.drivers if sheet.scene.loading.balance is None else sheet.scene.drivers[:1]
-    made = (
-        _lever(sheet, drawn, state, driver, hand)
-        for driver, drawn in zip(drivers, sheet.growing or (sheet,), strict=True)
-    )
-    return tuple(lever for lever in made if lever is not None)
-
-
-def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, driver: Driver, hand: Instrument) -> Lever | None:
-    """The lever by which the balance of a driver is found: the sum of all moments about the pole is zero.
-
-    Parameters
-    ----------
-    sheet, drawn : the position, and the position with this driver's value alone growing, whose velocity polygon is the
-        lever
-
-    Returns
-    -------
-    None where the balancing load does no work there
-    """
-    images = DrawnPosition(drawn)
-    balance = images.balance(driver)
-    per_mm = drawn.scales.velocity
-    ends = {str(ref): TURN * z * per_mm for ref, z in drawn.ends["velocity"].items()}
-    # the forces with their places on the figure from which the images are
-    times = sheet.scales.length / drawn.scales.length
-    rows = tuple(_on_lever(images, changed(load, at=load.at * times), hand) for load in state.known)
-    unknown = _on_lever(images, balance, hand)
-    if balance.off != sheet.scene.frame.name:  # between both links that it acts on
-        other = _on_lever(images, changed(balance, link=balance.off), hand)
-        unknown = replace(unknown, moment=unknown.moment - other.moment)
-    if abs(unknown.moment) <= 1e-12 * max((abs(z) for z in ends.values()), default=0.0):
-        return None
-    value = -added_up(row.moment for row in rows) / unknown.moment
-    steps = (ForceStep("carry over", "lever", "force"), ForceStep("lay off", "on lever", "force"),
-             ForceStep("read", "all moments", "force", symbol=balance.symbol, finds=(balance.symbol,)))  # fmt: skip
-    by_polygons = state.moments.get(balance.symbol) or abs(state.vectors.get(balance.symbol, 0j))
-    return Lever(per_mm, drawn is not sheet, ends, rows, unknown, value, by_polygons, steps)
+    # the lever is the velocity polygon of the position with this driver's value alone growing
+    for driver, drawn in zip(drivers, sheet.growing or (sheet,), strict=True):
+        images = DrawnPosition(drawn)
+        balance = images.balance(driver)
+        per_mm = drawn.scales.velocity
+        ends = {str(ref): TURN * z * per_mm for ref, z in drawn.ends["velocity"].items()}
+        # the forces with their places on the figure from which the images are
+        times = sheet.scales.length / drawn.scales.length
+        rows = tuple(_on_lever(images, changed(load, at=load.at * times), hand) for load in state.known)
+        unknown = _on_lever(images, balance, hand)
+        if balance.off != sheet.scene.frame.name:  # between both links that it acts on
+            other = _on_lever(images, changed(balance, link=balance.off), hand)
+            unknown = replace(unknown, moment=unknown.moment - other.moment)
+        if abs(unknown.moment) <= 1e-12 * max((abs(z) for z in ends.values()), default=0.0):
+            continue
+        value = -added_up(row.moment for row in rows) / unknown.moment
+        steps = (ForceStep("carry over", "lever", "force"), ForceStep("lay off", "on lever", "force"),
+                 ForceStep("read", "all moments", "force", symbol=balance.symbol, finds=(balance.symbol,)))  # fmt: skip
+        by_polygons = state.moments.get(balance.symbol) or abs(state.vectors.get(balance.symbol, 0j))
+        yield Lever(per_mm, drawn is not sheet, ends, rows, unknown, value, by_polygons, steps)
 
 
 def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> MomentTerm:
@@ -291,12 +274,8 @@ def force_readings(sheet: Sheet, hand: Instrument = EXACT) -> tuple[Reading, ...
 
 
 def _of_states(sheet: Sheet, largest: float, hand: Instrument) -> Iterator[Reading]:
-    """Forces (N) and moments (N m) of each state; of the second only those that differ from the first.
-
-    Parameters
-    ----------
-    largest : the largest force of all states (N)
-    """
+    """Forces (N), the ``largest`` of all states given, and moments (N m) of each state; of the second only those that
+    differ from the first."""
     base, *_ = sheet.forces
     for state in sheet.forces:
         most = max((abs(m) for m in state.moments.values()), default=0.0)

@@ -475,13 +475,8 @@ def _by_inner_pin(
 def _inner_force(
     cut: CutFree, dyad: Dyad, outer: ForceVector
 ) -> tuple[ForceVector, list[ForceVector]]:
-    """The force inside on the first body closes the polygon of that; of a sliding pair its couple the moments there,
-    too.
-
-    Parameters
-    ----------
-    outer : the outer force on the first body
-    """
+    """The force inside on the first body, on which the ``outer`` force acts, closes the polygon of that; of a sliding
+    pair its couple the moments there, too."""
     pair, links = dyad.inner, dyad.first.links
     chain = [vector for vector in cut.group.polygon if vector.link in links]
     force = _gap(chain, _end_of(chain), chain[0].tail) * cut.per_mm
@@ -549,12 +544,8 @@ def _at_driven_joint(
     cut: CutFree, joint: DrivenJoint, balance: ForceVector, extra: Sequence[ForceVector],
     inside: Collection[str],
 ) -> list[ForceVector]:  # fmt: skip
-    """The force and the moment of a driven pair on the link that hangs on it; returns what acts on the other link.
-
-    Parameters
-    ----------
-    extra : forces and couples on the link, besides what is known from outside
-    """
+    """The force and the moment of a driven pair on the link that hangs on it, with the ``extra`` forces and couples on
+    that besides what is known from outside; returns what acts on the other link."""
     leaf, other, pair = joint.b, joint.a, joint.pair
     chain: Chain = []
     cut.lay_known(chain, (leaf,))
