@@ -130,7 +130,7 @@ def _(task: CrankRockerTask, paper: TaskBoard) -> None:
             raise not_drawn("A", "the arc about d does not reach the", "another frame")
         A = paper.instrument.point(min(met, key=lambda z: z.real))
         paper.step("cross", "design arc", *arcs(D, reach, A), *pivots(A=A), mm=frame)
-    _between_limits(paper, A, D, first, second)
+    _crank_from_limits(paper, A, first, second, CD=(first, D), AD=(A, D))
 
 
 @draw.register
@@ -140,7 +140,7 @@ def _(task: LimitsTask, paper: TaskBoard) -> None:
     first, second = (paper.lay_off_angle(D, direction(angle), arm) for angle in task.angles)
     paper.step("lay off", "design limit positions", *fan("given", D, first, second), *pivots(A=A, D=D),
                *points(C1=first, C2=second), angles=tuple(map(math.radians, task.angles)), mm=arm)  # fmt: skip
-    _between_limits(paper, A, D, first, second)
+    _crank_from_limits(paper, A, first, second, CD=(first, D), AD=(A, D))
 
 
 def _locus(paper: TaskBoard, first: complex, second: complex, above: int, K: float) -> tuple[complex, float]:
@@ -161,19 +161,12 @@ def _locus(paper: TaskBoard, first: complex, second: complex, above: int, K: flo
     return centre, radius
 
 
-def _between_limits(paper: TaskBoard, A: complex, D: complex, first: complex, second: complex) -> None:
-    """The crank and the rod from both limit positions of a rocker, with the rocker and the frame."""
-    swapped = abs(first - A) < abs(second - A)
-    far, near = (second, first) if swapped else (first, second)
-    _crank_from_limits(paper, A, far, near, swapped, CD=(first, D), AD=(A, D))
-
-
 def _crank_from_limits(
-    paper: TaskBoard, A: complex, far: complex, near: complex, swapped: bool = False, **others: tuple[complex, complex]
+    paper: TaskBoard, A: complex, first: complex, second: complex, **others: tuple[complex, complex]
 ) -> None:
     """The crank as half the difference of AC1 and AC2, laid off by the compass, with both limit positions; the lengths,
     those of other bars too."""
-    i, j = (2, 1) if swapped else (1, 2)
+    (far, i), (near, j) = sorted(((first, 1), (second, 2)), key=lambda end: -abs(end[0] - A))
     reach = paper.instrument.compass(abs(near - A))
     on_far = paper.instrument.point(A + reach * unit(far - A))  # AC2 laid on AC1: what remains is twice the crank
     crank = paper.instrument.compass(abs(far - on_far) / 2)

@@ -61,8 +61,7 @@ def read_linkage2(text: str, title: str) -> Bodies:
         name = made.body(label, keys)
         for key in keys:
             names.setdefault(key, []).append(name)
-    ratios = (ratio for table in root if table.tag == "ratios" for ratio in table)
-    made.lost += [Phrase("lost ratio", kind=ratio.get("type", "gears")) for ratio in ratios]
+    made.lost += [Phrase("lost ratio", kind=ratio.get("type", "gears")) for ratio in root.iterfind("ratios/*")]
     fastened = (node for node in (*nodes.values(), *elements) if _fastened(node))
     made.lost += [Phrase("lost fastening", name=node.get("name") or node.get("id")) for node in fastened]
     for key, node in nodes.items():

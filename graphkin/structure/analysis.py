@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
-from itertools import pairwise, product
+from itertools import islice, pairwise, product
 from typing import Literal, TypeVar
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
@@ -213,21 +213,14 @@ def match(equations: Sequence[Sequence[N]]) -> dict[int, N]:
     for start in range(len(equations)):
         # breadth-first search for a free unknown, so that depth is no limit
         came_from: dict[N, int] = {}
-        queue = [start]
-        free: N | None = None
-        while queue and free is None:
-            equation = queue.pop(0)
-            for unknown in equations[equation]:
-                if unknown in came_from:
-                    continue
-                came_from[unknown] = equation
-                if unknown not in given:
-                    free = unknown
-                    break
-                queue.append(given[unknown])
-        if free is None:
-            continue
-        step: N | None = free
+        queue, step = [start], None
+        for equation in queue:
+            fresh = [unknown for unknown in equations[equation] if unknown not in came_from]
+            came_from.update(dict.fromkeys(fresh, equation))
+            step = next((unknown for unknown in fresh if unknown not in given), None)
+            if step is not None:
+                break
+            queue += [given[unknown] for unknown in fresh]
         while step is not None:
             equation = came_from[step]
             given[step] = equation
@@ -458,11 +451,9 @@ def _triangles(structure: Structure, group: LargerGroup, taken: set[str]) -> tup
     """The driven triangles of a larger group; ``taken`` are the keys of drivers, which no other driver may have."""
     triangles: list[DrivenTriangle] = []
     for driver in group.drivers:
-        for triangle in _closed_by(structure, group, driver):
-            if triangle.equivalent.key not in taken:
-                taken.add(triangle.equivalent.key)
-                triangles.append(triangle)
-                break
+        free = (t for t in _closed_by(structure, group, driver) if t.equivalent.key not in taken)
+        triangles += islice(free, 1)
+        taken.update(t.equivalent.key for t in triangles)
     return tuple(triangles)
 
 
