@@ -348,8 +348,12 @@ class Pieces:
         """The turns of a curve at seams, and which of the places at which its derivative is zero, with its values
         there, are those of a seam."""
         low, high, slack = float(self.low[0]), float(self.high[-1]), SAME_AT_SEAM * self.scale[curve]
+        wide = high - low
         turns, levels = list[Turn](), self.levels(curve)
-        near = np.minimum(BESIDE_SEAM * (high - low), self._room() / 3)
+        # a seam has room up to the next one, or to an end of the range
+        first, last = (self.seams[-1:] - wide, self.seams[:1] + wide) if self.periodic else ([low], [high])
+        gaps = np.diff(np.concatenate([first, self.seams, last]))
+        near = np.minimum(BESIDE_SEAM * wide, np.minimum(gaps[:-1], gaps[1:]) / 3)
         before, after = (self.at(self._within(self.seams + by), curve) for by in (-near, near))
         for sense in (1.0, -1.0):
             top = sense * (sense * levels).max(axis=0)
@@ -359,7 +363,7 @@ class Pieces:
                 rest = self._rest(curve, k, float(top[k]), slack)
                 turns.append(Turn(float(self.seams[k]), float(top[k]), sense, True, rest))
         distance = np.abs(places[:, None] - self.seams)
-        distance = np.minimum(distance, high - low - distance) if self.periodic else distance
+        distance = np.minimum(distance, wide - distance) if self.periodic else distance
         same = (np.abs(levels - values[:, None, None]) <= slack).any(axis=1)
         return turns, np.asarray(((distance < near) & same).any(axis=1))
 
@@ -374,13 +378,6 @@ class Pieces:
                 break
             rest = length
         return rest
-
-    def _room(self) -> Array:
-        """The distance of each seam from its neighbour: another seam, or an end of the range."""
-        wide = self.high[-1] - self.low[0]
-        ends = (self.seams[-1:] - wide, self.seams[:1] + wide) if self.periodic else (self.low[:1], self.high[-1:])
-        gaps = np.diff(np.concatenate([ends[0], self.seams, ends[1]]))
-        return np.minimum(gaps[:-1], gaps[1:])
 
     def _within(self, parameter: Array) -> Array:
         """The parameters, of a periodic range reduced to it."""

@@ -509,13 +509,8 @@ def _with_table(links: Centres, instrument: Instrument) -> Centres:
 def _otherwise(
     diagram: CircleDiagram, motions: Mapping[str, tuple[complex, float, float]], largest: float
 ) -> Centre:
-    """A centre that Kennedy's theorem does not give now: the place at which two links have the same velocity.
-
-    Parameters
-    ----------
-    motions : as `measured`
-    largest : the strongest motion of a link, beside which the relative motion of two may vanish
-    """
+    """A centre that Kennedy's theorem does not give now: the place at which two links have the same velocity, by their
+    `measured` motions; their relative motion may vanish beside the ``largest`` of a link."""
     pair = diagram.to_measure(motions)
     # too few triangles, or lines that fall together
     count, links = len(diagram.lines[pair]), {"first": pair[0], "second": pair[1]}

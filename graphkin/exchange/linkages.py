@@ -62,7 +62,9 @@ def read_linkage2(text: str, title: str) -> Bodies:
         for key in keys:
             names.setdefault(key, []).append(name)
     made.lost += [Phrase("lost ratio", kind=ratio.get("type", "gears")) for ratio in root.iterfind("ratios/*")]
-    fastened = (node for node in (*nodes.values(), *elements) if _fastened(node))
+    tags = ("fasten", "fastenlink", "fastenconnector")
+    fastened = (node for node in (*nodes.values(), *elements)
+                if any(map(node.get, tags)) or node.find("fastenconnector") is not None)  # fmt: skip
     made.lost += [Phrase("lost fastening", name=node.get("name") or node.get("id")) for node in fastened]
     for key, node in nodes.items():
         if node.get("slider") == "true" and key in made.names:
@@ -84,11 +86,6 @@ def _number(node: ElementTree.Element, key: str, usual: float = 0.0) -> float:
     if not math.isfinite(value):
         raise CallError.of(f"{node.tag} {node.get('id')}.{key}", f'"{node.get(key)}"', "a number is wanted")
     return value
-
-
-def _fastened(node: ElementTree.Element) -> bool:
-    by_name = any(node.get(key) for key in ("fasten", "fastenlink", "fastenconnector"))
-    return by_name or node.find("fastenconnector") is not None
 
 
 def _slider(made: Bodies, node: ElementTree.Element, holders: list[str]) -> None:

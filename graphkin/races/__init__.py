@@ -176,8 +176,7 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
     versions = listed([f"{program} {version}" for program, version in programs.items()])
     facts = say(Phrase("speed facts", cores=cores, processor=processor, versions=versions, runs=race.repeats,
                        positions=race.count, places=race.places), language)  # fmt: skip
-    wide = WIDTH - LEFT - RIGHT
-    half = (wide - GAP) / 2
+    half = (WIDTH - LEFT - RIGHT - GAP) / 2
 
     def paint(figure: Figure) -> None:
         add_words(

@@ -229,12 +229,8 @@ def match(equations: Sequence[Sequence[N]]) -> dict[int, N]:
 
 
 def components(needs: Mapping[N, Sequence[N]]) -> list[tuple[N, ...]]:
-    """Strongly connected components, each after those it needs (Kosaraju; Sharir 1981, without recursion).
-
-    Parameters
-    ----------
-    needs : for each node the nodes it needs
-    """
+    """Strongly connected components, each after those it ``needs``, by node (Kosaraju; Sharir 1981, without
+    recursion)."""
     finished: dict[N, None] = {}
     seen: set[N] = set()
     for root in needs:

@@ -352,11 +352,6 @@ def _along(slide: Pair) -> Direction:
     return Direction("along", (slide.guide.name or f"x{slide.b}",))
 
 
-def _foot_name(slide: Pair) -> str:
-    """The letter of the point where a sliding pair's force acts, or the link at whose origin it does."""
-    return slide.pin or slide.a
-
-
 def _slide_found(
     cut: CutFree, links: Sequence[str], slide: Pair, force: ForceVector, about: complex, letter: str,
     acting: Iterable[ForceVector], inside: Collection[str],
@@ -366,6 +361,7 @@ def _slide_found(
 
     Parameters
     ----------
+    letter : of the point at that place, or the link at whose origin it lies
     acting : forces and couples found already that are not yet among the known, the pair's own among them
     inside : links that do not come later
     """
@@ -412,7 +408,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
     for pair, body, force, opposed in zip(pairs, dyad.bodies, outer, (inner, inner.back), strict=True):
         if pair.turns:
             continue
-        at, letter, acting = force.at, _foot_name(pair), [force, opposed, *(couple.back for couple in couples)]
+        at, letter, acting = force.at, pair.pin or pair.a, [force, opposed, *(couple.back for couple in couples)]
         if dyad.inner.turns:
             at, letter, acting = opposed.at, dyad.inner.point, [force]
         couples.append(_slide_found(cut, body.links, pair, force, at, letter, acting, dyad.members))
@@ -537,7 +533,7 @@ def _close_driven(
     push = changed(push, by="closing", direction=NO_DIRECTION if aside else _along(pair))
     cut.close(chain, on, push)
     on, push = cut.drawn_in(chain, on), cut.drawn_in(chain, push)
-    return [on, push, _slide_found(cut, links, pair, on, on.at, _foot_name(pair), (*more, on, push), inside)]
+    return [on, push, _slide_found(cut, links, pair, on, on.at, pair.pin or pair.a, (*more, on, push), inside)]
 
 
 def _at_driven_joint(

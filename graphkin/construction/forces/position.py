@@ -88,13 +88,8 @@ class DrawnPosition:
         return Symbol(kind, PointRef(point) if several and point else None, link=first, other=second)
 
     def of_pin(self, point: str, link: str, done: Collection[str]) -> Symbol:
-        """The name of the force of the pin at a point on a link, without those of the link's guests that are known:
-        the pin's own where it is the sum of several.
-
-        Parameters
-        ----------
-        done : the links whose forces are known
-        """
+        """The name of the force of the pin at a point on a link, without those of the link's guests that are ``done``,
+        known before: the pin's own where it is the sum of several."""
         blocks = self.structure.blocks
         if link in self.pushed:
             return Symbol("F", link=point, other=blocks[link].b)
@@ -125,12 +120,7 @@ class DrawnPosition:
         return self.sheet.scene.size * self.mm
 
     def place(self, link: str, at: complex) -> complex:
-        """A place of a link on paper (mm).
-
-        Parameters
-        ----------
-        at : the place in the link's own axes (m)
-        """
+        """A place of a link on paper (mm), from that in the link's own axes (m)."""
         return self.sheet.poses[link].place(at * self.mm)
 
     def point(self, link: str, point: str) -> complex:
