@@ -36,17 +36,12 @@ def limit_why(
     ending = Phrase("reach the end of their motion")
     if isinstance(group, Dyad) and group.is_two_lines:
         _, _, ending = dyad_words(group)
-    where = {"links": group_words(structure, group), "ending": ending, "driver": driver.key,
+    where = {"links": named_with_contact(structure, group), "ending": ending, "driver": driver.key,
              "value": driver_text(scene, driver, values[column])}  # fmt: skip
     if between is None:
         return Phrase("end on the straight way there", **where)
     low, high = (driver_text(scene, driver, value) for value in between)
     return Phrase("end between which the motion reaches", **where, low=low, high=high)
-
-
-def group_words(structure: Structure, group: Dyad | LargerGroup) -> Phrase:
-    """The links and blocks of a group in words; of a dyad that replaces a contact, that."""
-    return named_with_contact(structure, group) if isinstance(group, Dyad) else group.named
 
 
 def lies_at(structure: Structure, value: float, away: float, about: bool = False) -> Phrase:

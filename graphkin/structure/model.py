@@ -385,14 +385,12 @@ class Structure:
         return next(s for s in self.slides if s.key == key)
 
 
-def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
-    """The links and blocks of a group in words; where one of them replaces a contact, that: ``contact K of links 1,
-    2``."""
-    inside = {n for body in dyad.bodies for n in body.links}
-    pair = next((pair for pair in structure.touching if pair.block in inside and not pair.carrier), None)
-    if pair is not None:
-        return Phrase("contact of links", contact=pair.name, links=listed(pair.bodies))
-    return dyad.named
+def named_with_contact(structure: Structure, group: Dyad | LargerGroup) -> Phrase:
+    """The links and blocks of a group in words; of a dyad that replaces a contact, that: ``contact K of links 1, 2``.
+    """
+    contacts = (pair for pair in structure.touching if pair.block in group.members and not pair.carrier)
+    contact = next(contacts, None) if isinstance(group, Dyad) else None
+    return Phrase("contact of links", contact=contact.name, links=listed(contact.bodies)) if contact else group.named
 
 
 N = TypeVar("N", bound=Hashable)

@@ -16,8 +16,8 @@ from graphkin.solver.algebra.dyads import DyadSolution
 from graphkin.solver.algebra.pose import Array, Drive
 from graphkin.solver.compiled.engine import SINGULAR, State, closes, positions
 from graphkin.solver.drivers import meant_value
-from graphkin.solver.sentences import dyad_words, group_words, lies_at
-from graphkin.structure import Dyad, LargerGroup, Structure
+from graphkin.solver.sentences import dyad_words, lies_at
+from graphkin.structure import Dyad, LargerGroup, Structure, named_with_contact
 from graphkin.words import Phrase, Wording, listed
 
 if TYPE_CHECKING:
@@ -214,7 +214,7 @@ def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, A
     group = structure.elements[i]
     assert isinstance(group, Dyad | LargerGroup)
     solved = positions(structure, Drive.at_unit_rates(values[None]), modes, i + 1, extended=False).groups[i]
-    links = group_words(structure, group)
+    links = named_with_contact(structure, group)
     if isinstance(solved, GroupSolved):
         if not solved.residual[0] < OPEN:
             return Phrase("no position was found here", links=links)
