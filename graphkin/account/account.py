@@ -219,8 +219,7 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
             return
     under = next((s for s in sheet.structure.slides if s.pin == of.point and of.link in (s.a, s.b)), None)
     if under is not None and of.point in frame.points:
-        other = PointRef(of.point, under.b if of.link == under.a else under.body)
-        yield _coincident(of, other, under)
+        yield _coincident(of, PointRef(of.point, under.b if of.link == under.a else under.body), under)
 
 
 def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:

@@ -58,7 +58,6 @@ LEVER_ROOM = 134.0, 130.0  # mm, width and height of a lever
 class InForces(Telling):
     """A step of the forces: of loads from outside, of a group, or of a lever."""
 
-    step: ForceStep
     group: ForceGroup = NO_GROUP
     lever: Lever | None = None
 
@@ -88,7 +87,7 @@ class InForces(Telling):
                 moment = self.name(step.symbol)
                 return Neutral(moment, " = 0") if reason == "no couple" else moment
             case "point":
-                return letters.point(self.moments.about)
+                return letters.point(step.about)
             case "pole":
                 return pole(letters.convention, "velocity")
             case "ends":
@@ -103,11 +102,6 @@ class InForces(Telling):
     def name(self, symbol: Symbol, part: str = "") -> RichText:
         """A force or a moment as a symbol, or a part of it."""
         return force_letters(self.account.letters.convention, symbol, part)
-
-    @property
-    def moments(self) -> MomentStep:
-        """The step as moments in balance."""
-        return self.step_of(MomentStep)
 
     @property
     def spring(self) -> SpringOn:
@@ -166,7 +160,7 @@ class InForces(Telling):
     def _moments(self) -> Iterator[Wording]:
         """The arms of moments as measured on the mechanism, the forces without one, and the equation as ``ΣM_C = F_G5 x
         0.0488 m ... = 0, F^t_R45 = -10.7 N``; the shifted line of the force of a sliding pair."""
-        equation, scene, units = self.moments, self.sheet.scene, self.sheet.scene.units
+        equation, scene, units = self.step, self.sheet.scene, self.sheet.scene.units
         name = self.name(equation.symbol, equation.part)
         of = [*((self.name(t.symbol), t.arm) for t in with_moments(equation)), (name, equation.unknown.arm)]
         arms = [force + f" {printed(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
@@ -267,7 +261,7 @@ def read_off(account: Account, group: ForceGroup, forces: Iterable[Symbol]) -> l
     for symbol in forces:
         size = on_paper(mm := group.read[symbol])
         sum_ = f"{printed(size)} mm × {printed(per_mm)} {unit}/mm = {printed(product(size, per_mm))} {unit}"
-        lines.append(account.symbol(symbol) + f" = {'0' if mm < ZERO else sum_}")
+        lines.append(account.letters.vector(symbol) + f" = {'0' if mm < ZERO else sum_}")
     return lines
 
 

@@ -282,8 +282,7 @@ def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
 def _guide_name(scene: Mechanism, pair: Pair, letters: Notation) -> Words:
     if pair.guide.name:
         return letters.guide(pair.guide.name, scene.frame.name)
-    on = scene.by_name[pair.b]
-    return sign("x") if pair.b == scene.frame.name else _own(on, letters)
+    return sign("x") if pair.b == scene.frame.name else _own(scene.by_name[pair.b], letters)
 
 
 def _own(link: PlacedLink, letters: Notation) -> Words:

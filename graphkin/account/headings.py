@@ -107,10 +107,8 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
 
 def figure_title(sheet: Sheet, figure: str, language: str) -> str:
     """Title of a figure as one line."""
-    parts = []
-    for each, title in zip(languages(language), titles(sheet, language) * 2, strict=False):
-        parts.append(title + word("colon", each) + word(figure, each))
-    return " / ".join(parts)
+    named = zip(languages(language), titles(sheet, language) * 2, strict=False)
+    return " / ".join(title + word("colon", each) + word(figure, each) for each, title in named)
 
 
 def describe(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> str:
@@ -180,8 +178,7 @@ def _sentence(said: Phrase, language: str) -> str:
             return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
         return plain(thing).replace("@", "")
 
-    text = say(said, language, shown)
-    return _capital(text).rstrip("。.") + word("full stop", language)
+    return _capital(say(said, language, shown)).rstrip("。.") + word("full stop", language)
 
 
 def _capital(text: str) -> str:

@@ -45,19 +45,15 @@ class InMechanism(Telling):
         return self.sheet.points.get(PointRef(point))
 
     @property
-    def place(self) -> PlaceStep:
-        """The step, of a point or a link."""
-        return self.step_of(PlaceStep)
-
-    @property
     def plain(self) -> Phrase:
         """The step without reference to its place on paper."""
-        return self.step.phrase
+        phrase: Phrase = self.step.phrase
+        return phrase
 
     @property
     def places(self) -> object:
         """Fixed points and guides by their places on paper."""
-        found = ((p, self.at(p)) for p in self.place.points)
+        found = ((p, self.at(p)) for p in self.step.points)
         told = [Phrase("place of a point", point=_named(p), **_coordinates(z)) for p, z in found if z is not None]
         for guide in self.sheet.scene.frame.guides.values():
             if guide.name:
@@ -69,18 +65,18 @@ class InMechanism(Telling):
     @property
     def angle(self) -> str:
         """The angle at which a link is drawn (degrees)."""
-        return true_minus(f"{math.degrees(self.place.value):.6g}")
+        return true_minus(f"{math.degrees(self.step.value):.6g}")
 
     @property
     def base(self) -> str | None:
         """The link from which that angle is measured; None for the x axis."""
-        return self.place.base or None
+        return self.step.base or None
 
     # -- the points of a link ------------------------------------------------------------------------------------------
 
     def _link_points(self) -> Phrase | None:
         """Each new point of a link from its drawn points."""
-        step, link = self.place, self.place.link
+        step, link = self.step, self.step.link
         own = self.sheet.structure.links[link].points if link in self.sheet.structure.links else {}
         before = [one for one in self.sheet.before(step) if one.diagram == "mechanism"]
         standing = {s.ref.point for one in before for s in one.strokes if isinstance(s, Mark)}
@@ -148,9 +144,9 @@ class InMechanism(Telling):
     def side(self) -> str | None:
         """The side of the line between two points of a point found by arcs, or of the crossing of circles for a
         tangent."""
-        one, other = map(self.at, self.place.points[:2])
+        one, other = map(self.at, self.step.points[:2])
         arcs = [s.at for s in self.step.strokes if isinstance(s, CompassArc)]
-        found = [self.at(self.place.point)] if self.step.reason == "arcs" else arcs
+        found = [self.at(self.step.point)] if self.step.reason == "arcs" else arcs
         if one is None or other is None or not found or found[0] is None or abs(other - one) < SAME:
             return None
         return "left" if cross(other - one, found[0] - one) > 0 else "right"
@@ -158,11 +154,11 @@ class InMechanism(Telling):
     @property
     def crossing(self) -> str | None:
         """The choice between the crossings of an arc with a straight path, as seen on the paper."""
-        point, bars = self.place.point, [
-            s.b - s.a for one in self.sheet.placing("path") if one.point == self.place.point
+        point, bars = self.step.point, [
+            s.b - s.a for one in self.sheet.placing("path") if one.point == self.step.point
             for s in one.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
         ]  # fmt: skip
-        centre, at = self.at(self.place.points[0]), self.at(point)
+        centre, at = self.at(self.step.points[0]), self.at(point)
         if centre is None or at is None or not bars:
             return None
         path = unit(bars[0])
@@ -174,7 +170,7 @@ class InMechanism(Telling):
 
     def _special_lines(self, language: str) -> Iterator[Phrase]:
         """The place of the special point."""
-        step = self.place
+        step = self.step
         joints = map(self.account.letters.point, (step.point, *step.points))
         key = "written relative special" if step.base and step.kind != "driven" else "written special"
         point, first, second = joints
@@ -185,7 +181,7 @@ class InMechanism(Telling):
 
     def _positions(self) -> Phrase | None:
         """Trial positions with the measured gaps of each, and the division."""
-        table = self.step_of(TrialPositions)
+        table = self.step
         if not table.trials:
             return None
         moved, missed = self._moved_and_missed(table)
@@ -213,7 +209,7 @@ class InMechanism(Telling):
     def _positions_lines(self, language: str) -> Iterator[Phrase]:
         """Trial positions: the moved quantity, the construction of each point, the gap, and the value that closes
         it."""
-        trial = self.step_of(TrialPositions)
+        trial = self.step
         out, moved, rolled = map(listed, (trial.left_out, trial.driven, trial.rolling))
         fitted = Phrase("written trial", left_out=out, moved=moved)
         parts = [Phrase("written trial rolling", moved=moved, contact=rolled) if rolled else fitted]

@@ -28,16 +28,12 @@ from graphkin.construction.board.steps import (
     Bar,
     EndStep,
     PointNames,
-    RateStep,
-    RateTrial,
     Ray,
     Reason,
     Role,
     Size,
-    Superposed,
     Term,
     Vector,
-    VectorStep,
     end_of,
 )
 from graphkin.plane import dot
@@ -69,7 +65,7 @@ class InPolygon(Telling):
         return RichText(*letters) if len(letters) == len(names) else None
 
     def _letter(self, name: str) -> RichText | None:
-        refs = self.of_end.ref if name in "cC" else self.of_end.refs["abAB".index(name) % 2]
+        refs = self.step.ref if name in "cC" else self.step.refs["abAB".index(name) % 2]
         account = self.account
         return account.end_of(self.step.diagram, refs) if name.islower() else account.letters.point(refs.point)
 
@@ -147,25 +143,20 @@ class InPolygon(Telling):
     # -- vectors -------------------------------------------------------------------------------------------------------
 
     @property
-    def of_vector(self) -> VectorStep:
-        """The step, of a vector."""
-        return self.step_of(VectorStep)
-
-    @property
     def length(self) -> str | None:
         """The length of its vector (mm); None without a vector."""
-        return on_paper(self.of_vector.mm) if self.of_vector.mm and self.places is not None else None
+        return on_paper(self.step.mm) if self.step.mm and self.places is not None else None
 
     @property
     def rule(self) -> Phrase:
         """A vector with the rule of its size, where that is not just given."""
         key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(self.step.reason, "as vector")
-        return Phrase(key, vector=_ruled(self.step.symbol, self.of_vector.size))
+        return Phrase(key, vector=_ruled(self.step.symbol, self.step.size))
 
     @property
     def way(self) -> object:
         """Its direction with its sense, unless its name contains it."""
-        direction = self.of_vector.direction
+        direction = self.step.direction
         if direction.relation == "towards" or self.places is None:
             return direction
         angle = pointing(self.places[1] - self.places[0])
@@ -199,7 +190,7 @@ class InPolygon(Telling):
     def _carried_over(self) -> Phrase | None:
         """The source of a vector between points of two links that is carried over from the motion seen from a held
         link; an acceleration with the Coriolis term of the held link's turning."""
-        step = self.of_vector
+        step = self.step
         of, to = step.symbol.of, step.symbol.to
         if step.size is not None or step.mm == 0.0 or of is None or step.direction.names:
             return None
@@ -227,25 +218,20 @@ class InPolygon(Telling):
 
     def _laid_sums(self) -> Iterable[Words]:
         """The rule of a vector in numbers, and its length on paper."""
-        step = self.of_vector
+        step = self.step
         if step.reason == "before its turn" and (step.size is None or not step.mm):
             return ()
         if self.places is None or not step.mm:
             return self.measured()
         computed, on_scale = laid_sum(self.sheet, step.diagram, step.size, abs(self.places[1] - self.places[0]))
-        return self.account.symbol(step.symbol) + f" = {computed}", on_scale
+        return self.account.letters.vector(step.symbol) + f" = {computed}", on_scale
 
     # -- images --------------------------------------------------------------------------------------------------------
 
     @property
-    def of_end(self) -> EndStep:
-        """The step, of an end point."""
-        return self.step_of(EndStep)
-
-    @property
     def on_link(self) -> tuple[complex, complex, complex] | None:
         """The places on the link of an end point and of the points from which it is found (mm)."""
-        a, b, c = (self.sheet.points.get(PointRef(ref.point)) for ref in (*self.of_end.refs, self.of_end.ref))
+        a, b, c = (self.sheet.points.get(PointRef(ref.point)) for ref in (*self.step.refs, self.step.ref))
         return None if a is None or b is None or c is None or abs(b - a) < SAME else (a, b, c)
 
     @property
@@ -275,7 +261,7 @@ class InPolygon(Telling):
     @property
     def _one_place(self) -> bool:
         """Whether the image of a bar is one point, as of a link that does not turn."""
-        a, b = (self.sheet.ends[self.step.diagram].get(ref) for ref in self.of_end.refs)
+        a, b = (self.sheet.ends[self.step.diagram].get(ref) for ref in self.step.refs)
         return a is not None and b is not None and on_paper(abs(b - a)) == on_paper(0.0)
 
     def _image(self) -> Phrase | None:
@@ -290,7 +276,7 @@ class InPolygon(Telling):
     def _image_lines(self, language: str) -> Iterator[Words | Phrase]:
         """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points
         the vector with the similar figure of the link, none for a vector that is not drawn."""
-        step, on_line = self.of_end, self.step.reason == "division"
+        step, on_line = self.step, self.step.reason == "division"
         if step.held:
             yield Phrase("written image seen", vector=step.symbol, link=step.link)
         elif self._one_place and self._lettered("abc"):
@@ -314,12 +300,12 @@ class InPolygon(Telling):
     @property
     def parts(self) -> list[tuple[Term, complex]]:
         """The parts that the rates of a link give, each with its vector (mm)."""
-        return [(part, part.span) for part in self.of_end.terms if part.span is not None]
+        return [(part, part.span) for part in self.step.terms if part.span is not None]
 
     @property
     def laid(self) -> object:
         """The path to an end point from another of its link: the parts by the rates, laid off in order."""
-        start = end_of(self.of_end.begins[0]) if self.step.held else Phrase("the point", point=self.gap("a"))
+        start = end_of(self.step.begins[0]) if self.step.held else Phrase("the point", point=self.gap("a"))
         if not self.step.held and self.gap("a") is None:
             return None
         told = list[Phrase]()
@@ -330,9 +316,6 @@ class InPolygon(Telling):
             told.append(Phrase("lay off from", start=start, rule=rule, length=on_paper(abs(span)), way=way))
             start = Phrase("the end of", vector=part.symbol)
         return joined("in turn", told) if told else None
-
-    def _by_rates(self) -> Phrase | None:
-        return self.first("ends seen" if self.step.held else "ends in")
 
     def _by_rates_sums(self) -> Iterator[Words]:
         """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
@@ -349,67 +332,65 @@ class InPolygon(Telling):
             assert part.size is not None
             way = letters.direction(part.direction, self.sheet.scene.frame.name)
             value = bound(rule_sum(self.sheet, part.size, self.step.diagram))
-            rule = spaced(" =\u00a0", (self.account.symbol(part.symbol), letters.size(part.size), value))
+            rule = spaced(" =\u00a0", (self.account.letters.vector(part.symbol), letters.size(part.size), value))
             yield rule + ",  " + way
 
     # -- rates ---------------------------------------------------------------------------------------------------------
 
     @property
-    def of_rate(self) -> RateStep:
-        """The step, of a rate."""
-        return self.step_of(RateStep)
-
-    @property
     def turning_links(self) -> tuple[str, ...]:
         """The links with the same rate, as its indices."""
-        step, rates = self.of_rate, self.sheet.rates[self.of_rate.kind]
+        step, rates = self.step, self.sheet.rates[self.step.kind]
         return (step.link + step.held,) if step.held else (step.link, *alike(rates.values(), rates[step.link]))
 
     def _rate_sums(self) -> Iterable[Words]:
-        step = self.of_rate
+        step = self.step
         value = rate_sum(self.sheet, step) or f"{number(abs(step.value), MOST)} {step.unit}"
         return (rate(step.kind, self.turning_links[0]) + f" = {value}",)
 
     def _rate_lines(self, language: str) -> Iterator[RichText]:
         """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
-        step, rates = self.of_rate, self.sheet.rates[self.of_rate.kind]
+        step, rates = self.step, self.sheet.rates[self.step.kind]
         value = step.value if step.held else rates[step.link].value
-        rule = self.account.symbol(step.symbol) + " / " + self.account.letters.length(step.points)
+        rule = self.account.letters.vector(step.symbol) + " / " + self.account.letters.length(step.points)
         shown = bound(rate_sum(self.sheet, step, units=False)) or f"{number(abs(value), 5)} {step.unit}"
         names = (rate(step.kind, name) for name in self.turning_links)
         yield spaced(" =\u00a0", (*names, rule, shown)) + _turning(value, language)
 
     def _held_still_lines(self, language: str) -> Iterator[RichText]:
         """``ω_32 = 0.1437 rad/s, clockwise, drawn apart, with one link held still``."""
-        step = self.of_rate
+        step = self.step
         if step.kind in ("omega", "alpha"):
             value = f"{number(abs(step.value), 5)} {step.unit}{_turning(step.value, language)}"
             yield rate(step.kind, step.link + step.held) + f" = {value},  {term('held still', language)}"
 
     def _plan_lines(self, language: str) -> Iterator[RichText]:
         """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read from the plan of a train."""
-        step = self.of_rate
+        step = self.step
         value = bound(plan_sum(step)) + _turning(step.value, language) if step.value else "0"
         yield rate(step.kind, step.link) + " = " + value
 
     def _summed_lines(self, language: str) -> Iterator[RichText]:
         """``ω_5 = ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link with a known rate relative to a
         link of known rate, and of links that slide on it."""
-        others = (rate(self.of_rate.kind, name) for name in self.turning_links[:0:-1])
+        others = (rate(self.step.kind, name) for name in self.turning_links[:0:-1])
         yield spaced(" = ", (*others, bound(self.account.say(self.step.phrase, languages(language)[0]))))
 
     # -- trial polygons ------------------------------------------------------------------------------------------------
 
     def _trial(self) -> Phrase:
         """A trial polygon: its steps, and in the first one its reason."""
-        step = self.step_of(RateTrial)
+        step = self.step
         # the steps by which it is drawn like the true polygon
         assumed = {aid.symbol for aid in step.auxiliary}
         later = [s for s in self.sheet.steps[step.number :] if s.diagram == step.diagram]
         first = next(s.number for s in later if s.reason == "open ends") + 1
         own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in assumed for x in s.strokes))
         last = max((s.number for s in own), default=first)
-        rates = self._rates(step.assumed)
+        rates = listed([
+            Phrase("rate is", symbol=symbol, value=true_minus(number(value, 5)), unit=self._unit(symbol))
+            for symbol, value in step.assumed
+        ])  # fmt: skip
         told = Phrase("trial lettered", trial=sign(roman(step.trial)), rates=rates, first=first, last=last)
         if step.trial > 1:
             return told
@@ -422,7 +403,7 @@ class InPolygon(Telling):
 
     def _superposed(self) -> Phrase:
         """The gaps of the trials, measured from letter to letter, and the proportional division in numbers."""
-        divided = self._divided
+        divided = self.step
         rows = numbered([true_minus(on_paper(mm)) for mm in row] for row in divided.apart)
         quotients = divisions(self.sheet, divided)
         rates = listed([
@@ -438,7 +419,7 @@ class InPolygon(Telling):
         """The measured gaps, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional
         division.
         """
-        divided, symbol = self._divided, self.account.symbol
+        divided, symbol = self.step, self.account.letters.vector
         trials = trials_of(self.sheet, divided)
         numerals = [sign(roman(trial.trial)) for trial in trials]
         closing = listed([
@@ -462,13 +443,9 @@ class InPolygon(Telling):
         else:
             yield Phrase("written superposed", rates=said)
 
-    @property
-    def _divided(self) -> Superposed:
-        return self.step_of(Superposed)
-
     def _left_open(self) -> object:
         """The gaps, by their end points and directions."""
-        told, divided = [], self._divided
+        told, divided = [], self.step
         for way, refs, less in zip(divided.ways, divided.between, divided.less, strict=True):
             begin, end = (
                 self.account.end_of(self.step.diagram, ref)
@@ -491,11 +468,6 @@ class InPolygon(Telling):
     def _unit(self, symbol: Symbol) -> str:
         return symbol.unit(self.sheet.scene.units).written
 
-    def _rates(self, found: Iterable[tuple[Symbol, float]]) -> object:
-        """Rates with their units, in a list."""
-        told = ((symbol, true_minus(number(value, 5)), self._unit(symbol)) for symbol, value in found)
-        return listed([Phrase("rate is", symbol=symbol, value=value, unit=unit) for symbol, value, unit in told])
-
     sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InPolygon], Phrase | None]]] = {
         **dict.fromkeys(ROLES, _laid_off), "vector": ("found lettered",),
         "direction": (
@@ -504,11 +476,12 @@ class InPolygon(Telling):
         "lines": ("meet in",), "letter": ("name letter",), "pole to end": ("{nought}", "join"),
         "asked": ("asked lettered",),
         "before its turn": ("{nought}", "carry lettered", "carry from"), "similar": _image, "division": _image,
-        "rates": _by_rates, "polygon": _trial, "open ends": _superposed,
+        "rates": lambda told: told.first("ends seen" if told.step.held else "ends in"),
+        "polygon": _trial, "open ends": _superposed,
     }  # fmt: skip
     arithmetic: ClassVar[Mapping[Reason, Callable[[InPolygon], Iterable[Words]]]] = {
         **dict.fromkeys((*ROLES, "before its turn"), _laid_sums), "rates": _by_rates_sums, "rate": _rate_sums,
-        "plan": lambda told: [rate(told.of_rate.kind, told.step.link) + f" = {plan_sum(told.of_rate)}"],
+        "plan": lambda told: [rate(told.step.kind, told.step.link) + f" = {plan_sum(told.step)}"],
     }
     lines: ClassVar[Mapping[Reason, Callable[[InPolygon, str], Iterable[Words | Phrase]]]] = {
         **dict.fromkeys(ROLES, lambda told, language: filter(None, [told._carried_over()])),

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar
 
 from graphkin.account.arithmetic import lengths_measured, times_scale
 from graphkin.account.notation import Notation, notation_of, pole
@@ -217,10 +217,6 @@ class Account:
             return word("given", language).lower() if thing == GIVEN else self.letters.size(thing)
         return str(thing)
 
-    def symbol(self, symbol: Symbol) -> RichText:
-        """A vector or a rate."""
-        return self.letters.vector(symbol)
-
     def end_at(self, diagram: DiagramName, at: complex | None) -> RichText | None:
         """The letter of a place of a polygon (mm from the pole); None where the convention names vectors instead."""
         named = self._named.get(diagram, ())
@@ -258,16 +254,14 @@ def account_of(sheet: Sheet) -> Account:
     return Account(sheet, notation_of(sheet, sheet.scene.question.sheet.convention))
 
 
-KindOfStep = TypeVar("KindOfStep", bound=Step)
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Telling:
     """The telling of a step: by its reason its ``sentences``, keys of the table of words from the fullest to the
     barest, of which the first with filled gaps is said; its ``sums``, and the ``lines`` to repeat it."""
 
     account: Account
-    step: Step
+    step: Any
+    """Of the kind that has its reason."""
     sentences: ClassVar[Mapping[Reason, Any]] = {}
     arithmetic: ClassVar[Mapping[Reason, Callable[[Any], Iterable[Words]]]] = {}
     lines: ClassVar[Mapping[Reason, Callable[[Any, str], Iterable[Words | Phrase]]]] = {}
@@ -276,11 +270,6 @@ class Telling:
     def sheet(self) -> Sheet:
         """The sheet of the step."""
         return self.account.sheet
-
-    def step_of(self, kind: type[KindOfStep]) -> KindOfStep:
-        """The step as one of its kind."""
-        assert isinstance(self.step, kind)
-        return self.step
 
     def gap(self, name: str) -> object:
         """The value of a gap by its name: a property of the telling, else an argument of the step; None without a
@@ -309,7 +298,7 @@ class Telling:
         for vector in self.step.vectors:
             size = abs(vector.span)
             value = times_scale(self.sheet, self.step.diagram, size) if size else "0"
-            yield self.account.symbol(vector.symbol) + f" = {value}"
+            yield self.account.letters.vector(vector.symbol) + f" = {value}"
 
     def sentence(self, language: str) -> Words:
         """Its sentence in a language, with the letters of its first and last point."""
