@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import ClassVar
 
 from graphkin.checking.report import Known, in_unit
 from graphkin.construction.board.projective import normal, wedge
@@ -12,12 +12,10 @@ from graphkin.construction.centres import Centre, Centres, LinkPair
 from graphkin.errors import Disagreement, Problem
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
+from graphkin.solver import Motion
 from graphkin.solver.quantities import pole
 from graphkin.solver.values import as_drawn
 from graphkin.words import Phrase, say
-
-if TYPE_CHECKING:
-    from graphkin.solver import Motion
 
 NO_MOTION = 1e-9
 TOLERANCE = 1e-9
@@ -36,6 +34,7 @@ class SpeedByCentres(Known):
     and ``by_centres`` is None where they give no value at all.  ``chain`` are the centres used.
     """
 
+    values: ClassVar = ("by_centres", "exact")
     by_centres: Value | None
     exact: Value
     chain: tuple[str, ...]
@@ -54,9 +53,6 @@ class SpeedByCentres(Known):
     def too_near(self, language: str) -> str:
         """The sentence for a value that the centres do not determine."""
         return say(Phrase("centres too near", symbol=str(self.symbol)), language)
-
-    def _values(self) -> tuple[tuple[str, Value | None], ...]:
-        return ("by centres", self.by_centres), ("exact", self.exact)
 
 
 def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCentres, ...]:
@@ -77,8 +73,7 @@ def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCent
         tolerance, most, ok = math.inf, largest[symbol.kind], None
         if value is not None:
             of = centres.turning_of(symbol.of or PointRef("", symbol.link))
-            chain = () if of is None else of.chain
-            most = max(most, 1e-300)
+            chain, most = () if of is None else of.chain, max(most, 1e-300)
             rounded = float(motion.bounds_in_double()[1][0]) / (1.0 if symbol.is_vector else size)
             tolerance = max(TOLERANCE * most, rounded, SAFETY * centres.velocity_error(symbol))
             ok = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance

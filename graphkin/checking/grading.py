@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any
+from typing import Any, ClassVar
 
 from graphkin.checking.answers import Answers, Cell
 from graphkin.checking.report import Known
@@ -41,6 +41,7 @@ class JudgedValue(Known):
     follows_from : earlier wrong values of the same person from which it follows
     """
 
+    values: ClassVar = ("printed", "exact")
     printed: Value
     exact: Value
     deviation: float | None
@@ -59,9 +60,6 @@ class JudgedValue(Known):
             unit.of(judged.bound), "" if judged.looks_like is None else say(judged.looks_like, language),
             judged.follows_from,
         )  # fmt: skip
-
-    def _values(self) -> tuple[tuple[str, Value | None], ...]:
-        return ("printed", self.printed), ("exact", self.exact)
 
     def _words(self) -> tuple[str, ...]:
         return self.verdict, self.looks_like
@@ -129,18 +127,16 @@ def _points_of(who: Answers, judged: Sequence[Judged], scheme: Scheme) -> dict[s
     def worth(symbol: Symbol) -> float:
         return scheme[symbol] if symbol in scheme else scheme.get("values", 0.0) / alike
 
-    good = [j.printed.symbol for j in judged if j.verdict in FULL]
-    values = added_up(map(worth, good))
+    values = added_up(worth(j.printed.symbol) for j in judged if j.verdict in FULL)
     most = added_up(map(worth, who.cells))
     points: dict[str, float | None] = {"values": values}
     total = values
     for part in ("equations", "drawing"):
         if part in scheme:
             mark = who.marks.get(part)
-            points[part] = own = None if mark is None else min(max(mark, 0.0), scheme[part])
-            if own is not None:
-                total += own
-                most += scheme[part]
+            points[part] = None if mark is None else min(max(mark, 0.0), scheme[part])
+            total += points[part] or 0.0
+            most += 0.0 if mark is None else scheme[part]
     return {"points": {k: None if v is None else round(v, 4) for k, v in points.items()},
             "total": round(total, 4), "of": round(most, 4)}  # fmt: skip
 
@@ -185,13 +181,11 @@ def rows_of(scene: Mechanism, who: Answers, judged: Sequence[Judged], language: 
 
 def _unread(scene: Mechanism, symbol: Symbol, cell: Cell, language: str) -> Row:
     text, why = cell if isinstance(cell, tuple) else ("", None)
-    row: Row = {
+    verdict, reason = ("missing", "no answer") if why is None else ("not readable", say(why, language))
+    return {
         "symbol": str(symbol), "written": text, "printed": None, "exact": None, "unit": symbol.unit(scene.units).text,
-        "deviation_pct": None,
+        "deviation_pct": None, "verdict": verdict, "why": reason,
     }  # fmt: skip
-    if why is None:
-        return row | {"verdict": "missing", "why": "no answer"}
-    return row | {"verdict": "not readable", "why": say(why, language)}
 
 
 def _value(scene: Mechanism, judged: Judged, language: str) -> Row:

@@ -7,23 +7,23 @@ import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from typing import TYPE_CHECKING
 
-from graphkin.checking.report import Report, compare
+from graphkin.checking.report import Report, Uncertainty, compare
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.sheet import MOST_LOST, Reading, Sheet, either_way
 from graphkin.construction.board.steps import ORDERS
 from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
+from graphkin.solver import Motion
 from graphkin.solver.values import as_drawn, exact_values, forces_here, rounding_of
 from graphkin.structure.transmission import joint_between, joint_of_follower, sliding_pair
 from graphkin.words import Phrase, joined
 
 if TYPE_CHECKING:
-    from graphkin.checking.report import Uncertainty
     from graphkin.construction.centres import Centres
-    from graphkin.solver import Motion
 
 Place = Callable[[str], complex | None]
 Measured = tuple[float | None, float]
@@ -69,8 +69,9 @@ def read_off(
 
         readings |= {reading.symbol: reading for reading in force_readings(sheet, instrument)}
         for symbol in (*sheet.asked, *asked):
-            same = _as_drawn(symbol, readings)
-            if same is not None and symbol not in readings:
+            # a joint force or couple that is asked for from its other side
+            same = readings.get(replace(symbol, link=symbol.other, other=symbol.link)) if symbol.other else None
+            if same is not None and symbol.scope == "force" and symbol not in readings:
                 readings[symbol] = replace(same, symbol=symbol, value=-same.value)
             # where nothing begins or ends it is what it is anyway
             same = readings.get(replace(symbol, plus=False)) if symbol.plus else None
@@ -118,34 +119,25 @@ def _measured(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument) -> 
     asked = [s for s in dict.fromkeys(asked) if s.scope in ("position", "turn") and not s.at]
     if not asked:
         return {}
-    places = _centres(sheet, instrument)
-    lengths = {symbol: _position(sheet, symbol, instrument, places) for symbol in asked}
+    place = _centres(sheet, instrument)
+    lengths = {symbol: _position(sheet, symbol, instrument, place) for symbol in asked}
     per_mm = sheet.scales.length
     return {s: Reading(s, *measured, "mechanism", per_mm) for s, measured in lengths.items() if measured is not None}
 
 
-def _as_drawn(symbol: Symbol, readings: Mapping[Symbol, Reading]) -> Reading | None:
-    """The reading of a joint force or couple that is asked for from its other side."""
-    if symbol.scope != "force" or not symbol.other:
-        return None
-    return readings.get(replace(symbol, link=symbol.other, other=symbol.link))
-
-
-def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | None]:
+def _centres(sheet: Sheet, instrument: Instrument) -> Place:
     """The places of instant centres on the drawing (mm), found when the first of them is asked for."""
-    centres: list[Centres] = []
+    @cache
+    def centres() -> Centres:
+        from graphkin.construction.centres import centres_on
+
+        return centres_on(sheet, sheet.asked, instrument)
 
     def place(name: str) -> complex | None:
         pair = centre_links(name, sheet.scene.by_name)
-        if pair is None:
+        if pair is None or not set(pair) <= set(centres().names):
             return None
-        if not centres:
-            from graphkin.construction.centres import centres_on
-
-            centres.append(centres_on(sheet, sheet.asked, instrument))
-        if not set(pair) <= set(centres[0].names):
-            return None
-        centre = centres[0].of(*pair)
+        centre = centres().of(*pair)
         if centre.point is None:
             why = Phrase("lies at infinity here") if centre.place is not None else Phrase("has no place here")
             raise Unsolvable("not drawn", Problem(name, "the instant centre of links",
@@ -169,7 +161,7 @@ def _vector(sheet: Sheet, symbol: Symbol, span: complex, instrument: Instrument)
 # -- positions, measured on the drawn mechanism ------------------------------------------------------------------------
 
 
-def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place | None = None) -> Measured | None:
+def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place) -> Measured | None:
     """A measured position or quantity of the whole turn; None where its points or links are not drawn.
 
     Parameters
@@ -219,20 +211,18 @@ def _length(sheet: Sheet, instrument: Instrument, mm: float) -> Measured:
     return abs(read), read * sheet.scales.length
 
 
-def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place | None) -> Measured | None:
-    assert symbol.of is not None
+def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place) -> Measured | None:
+    names = [ref.point for ref in (symbol.of, symbol.to) if ref is not None]
     spots = []
-    for ref in (symbol.of, symbol.to):
-        if ref is None:
-            continue
-        spot = sheet.points.get(PointRef(ref.point))
-        if spot is None and place is not None and ref.point not in sheet.scene.holders:
-            spot = place(ref.point)
+    for name in names:
+        spot = sheet.points.get(PointRef(name))
+        if spot is None and name not in sheet.scene.holders:
+            spot = place(name)
         if spot is None:
             return None
         spots.append(spot)
     if symbol.kind == "d":
-        kept = sheet.readings.get(frozenset(ref.point for ref in (symbol.of, symbol.to) if ref))
+        kept = sheet.readings.get(frozenset(names))
         if kept is not None:
             return abs(kept), abs(kept) * sheet.scales.length
         return _length(sheet, instrument, abs(spots[1] - spots[0]))
@@ -251,8 +241,7 @@ def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured |
         slide = sliding_pair(sheet.structure.slides, symbol)
         return _length(sheet, instrument, abs(travel(slide, high, mm) - travel(slide, low, mm)))
     if symbol.kind == "swing":
-        turned = high[symbol.link].axis / low[symbol.link].axis
-        angle = phase(instrument.read_direction(turned))
+        angle = phase(instrument.read_direction(high[symbol.link].axis / low[symbol.link].axis))
         return None, abs(angle + math.tau * round((highest.angle - lowest.angle - angle) / math.tau))
     driver = sheet.scene.drivers[0]
     one, two = (poses[driver.link].axis / poses[driver.relative_to].axis for poses in (low, high))

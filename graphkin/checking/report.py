@@ -8,12 +8,13 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import ClassVar
 
 from graphkin.construction.board.sheet import Reading, Sheet
 from graphkin.construction.board.steps import ORDERS, Cause, phrase_of
 from graphkin.errors import Disagreement, Problem
 from graphkin.files import Json
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.scene.tables import Unit, Units
 from graphkin.solver.motion import SLIGHT
@@ -21,9 +22,6 @@ from graphkin.solver.values import Lost
 from graphkin.structure import by_drivers_alone, greatest_before
 from graphkin.words import Phrase, say
 from graphkin.words.written import MOST, ROUNDED, amount, computed, figures, on_paper, product
-
-if TYPE_CHECKING:
-    from graphkin.scene.model import Mechanism
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14
@@ -140,16 +138,13 @@ class Report:
 
     def must_agree(self) -> None:
         """Raises Disagreement, naming every reading out of tolerance with its drawn and its exact value."""
-        wrong = [row for row in self.rows if row.ok is False]
-        if not wrong:
-            return
         problems = []
-        for row in wrong:
-            told = ReadValue.of(self.sheet.scene, row)
+        for told in (ReadValue.of(self.sheet.scene, row) for row in self.rows if row.ok is False):
             drawn, exact = told.shown(told.measured), told.shown(told.exact)
-            problems.append(Problem(str(row.symbol), "by the drawing by computation",
+            problems.append(Problem(str(told.symbol), "by the drawing by computation",
                                     "no paper is written please report this scene", value=drawn, exact=exact))
-        raise Disagreement(*problems)
+        if problems:
+            raise Disagreement(*problems)
 
     @property
     def settles_nothing(self) -> bool:
@@ -285,8 +280,7 @@ def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, Value]]) -> dict[Symbo
 
 
 def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
-    """The angle from the exact direction of a vector to the drawn one (rad); 0 for a vector too short beside
-    ``whole``."""
+    """The angle from the exact direction of a vector to the drawn one (rad); 0 for one too short beside ``whole``."""
     if not reading.symbol.is_vector or min(abs(reading.value), abs(exact)) <= 1e-7 * whole:
         return 0.0
     return cmath.phase(complex(reading.value) / complex(exact)) + 0.0  # no minus before nought
@@ -413,14 +407,13 @@ class Known:
 
     symbol: Symbol
     unit: str
+    values: ClassVar[tuple[str, ...]] = ()
+    """Its values by their names."""
 
     def __repr__(self) -> str:
-        values = (f"{what} {self.shown(value)}" for what, value in self._values() if value is not None)
-        return f"<{self.symbol}: {', '.join(filter(None, (*values, *self._words())))}>"
-
-    def _values(self) -> tuple[tuple[str, Value | None], ...]:
-        """Its values with their names."""
-        return ()
+        values = ((name, getattr(self, name)) for name in self.values)
+        shown = (f"{name.replace('_', ' ')} {self.shown(value)}" for name, value in values if value is not None)
+        return f"<{self.symbol}: {', '.join(filter(None, (*shown, *self._words())))}>"
 
     def _words(self) -> tuple[str, ...]:
         """Further words on it."""
@@ -453,6 +446,7 @@ class ReadValue(Known):
     uncertainty : the predicted standard deviation; None for exact hands
     """
 
+    values: ClassVar = ("measured", "exact")
     on_paper: float | None
     measured: Value
     exact: Value
@@ -472,9 +466,6 @@ class ReadValue(Known):
             unit.of(row.error), unit.of(row.tolerance), math.degrees(row.direction_error), row.ok,
             None if row.uncertainty is None else unit.of(row.uncertainty.deviation),
         )  # fmt: skip
-
-    def _values(self) -> tuple[tuple[str, Value | None], ...]:
-        return ("measured", self.measured), ("exact", self.exact)
 
     def _words(self) -> tuple[str, ...]:
         read = "" if self.on_paper is None else f"read from {self.on_paper:.6g} mm on paper"

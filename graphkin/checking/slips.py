@@ -143,8 +143,7 @@ class Evidence:
 
     @cached_property
     def _stages(self) -> Stages:
-        of_person = partial(_own_values, self.plan, self.sheet)
-        return Stages(self.plan, self.plan.scales, own_values=of_person)
+        return Stages(self.plan, self.plan.scales, own_values=partial(_own_values, self.plan, self.sheet))
 
     def following(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
         """The value of a symbol, drawn from the person's own values of other symbols (SI).
@@ -602,8 +601,7 @@ def _gear_slips(motion: Motion) -> Iterator[Alteration]:
             yield slip("slip teeth exchanged", gear, 0.08, {gear: turned})
             yield slip("slip teeth sense", gear, 0.1, {gear: outside})
         if scene.frame.name not in (gear.carrier, *gear.wheels):
-            standing = replace(gear, carrier=scene.frame.name)
-            yield slip("slip carrier", gear, 0.1, {gear: standing})
+            yield slip("slip carrier", gear, 0.1, {gear: replace(gear, carrier=scene.frame.name)})
         if two is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
             swapped = {(gear.wheels[0], abs(one)): abs(two), (gear.wheels[1], abs(two)): abs(one)}
             yield slip("slip teeth exchanged", gear, 0.08, {g: _with(g, swapped) for g in scene.gears})
