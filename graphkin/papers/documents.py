@@ -177,7 +177,8 @@ def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
     counts = [len(g.polygon) for g in lesson.sheet.forces[0].groups if g.way != "drawn system" and len(g.polygon) > 1]
     asked: tuple[Paragraph | Picture, ...] = ()
     if counts and lesson.level != "hard":
-        blank = pictures.blank_sums(lesson, counts, min(paper.body.width, A4.body.width))
+        sums = [(count, ["+"] * (count - 1), "= 0") for count in counts]
+        blank = pictures.blanks(lesson, sums, min(paper.body.width, A4.body.width))
         asked = (Paragraph(said("your force equations", language), small=True), Picture(blank))
     page = Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - ROOM_BETWEEN)
     beside = page.height - _height(asked) >= pictures.LEAST_FRAME
@@ -373,11 +374,13 @@ def result_cells(lesson: Lesson) -> Iterator[dict[str, Words]]:
         placed, is_length = row.symbol.scope == "position", row.symbol.is_vector or row.symbol.measure.is_length
         size = line.exact if placed else abs(line.exact)
         read, right = measured(row.reading, units, row), exact(row, units)
+        # a sense is in words, a place keeps its sign
+        shown = [text if _is_place(row.symbol) else text.removeprefix("−") for text in map(printed, (read, right))]
         tolerance, accept = accepted(size, line.tolerance or 0.0, -math.inf if placed else 0.0)
         yield {
             "quantity": lesson.letters.vector(row.symbol),
             "on paper": printed(paper(row.reading, row)) if is_length else "–",  # a rate has no length of its own
-            "measured": unsigned(row, printed(read)), "exact": unsigned(row, printed(right)), "value": number(size, 5),
+            "measured": shown[0], "exact": shown[1], "value": number(size, 5),
             "course difference": f"{100 * abs(float(read) / float(right) - 1.0):.2f}" if float(right) else "–",
             "tolerance": tolerance, "accept": accept, "unit": line.unit, "sense": way(row, lesson.language),
         }  # fmt: skip
@@ -449,11 +452,6 @@ def head_of(symbol: Symbol, units: Units) -> str:
     """A quantity with its unit, as the head of a column."""
     unit = symbol.unit(units).text
     return f"{symbol} ({unit})" if unit else str(symbol)
-
-
-def unsigned(row: Compared, text: str) -> str:
-    """A value without its sign where its sense is in words; a place keeps its sign."""
-    return text if _is_place(row.symbol) else text.removeprefix("−")
 
 
 def _is_place(symbol: Symbol) -> bool:
@@ -615,10 +613,8 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
     equation = stage.equation
     if stage.diagram == "mechanism":
         return said("the position", lesson.language)
-    if stage.of_plans:
-        return said(PLAN_WORDS[stage.diagram], lesson.language)
     if equation is None:
-        return said("further vectors", lesson.language)
+        return said(PLAN_WORDS[stage.diagram] if stage.of_plans else "further vectors", lesson.language)
     numbered_one = Phrase("equation numbered", number=equation.number)
     return in_each(
         lesson.language,

@@ -167,8 +167,7 @@ def candidate(source: Tables, spread: Spread, seed: int, number: int, attempt: i
 
 def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> float:
     if kind == "angle":
-        turn = round(360.0 / spread.angle_step)
-        angle = spread.angle_step * dice.randrange(turn)
+        angle = spread.angle_step * dice.randrange(round(360.0 / spread.angle_step))
         return angle if angle <= 180.0 else angle - 360.0
     if kind == "teeth":
         few, many = (round(abs(value) * (1 + sign * spread.teeth)) for sign in (-1, 1))
@@ -275,8 +274,7 @@ def _teeth(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
         if known is not None:
             twin = next((t for g, t in meshes if g.carrier == gear.carrier and set(g.axes) == set(gear.axes)), None)
             if twin is not None:
-                total = abs(sum(twin))
-                teeth[1 - known] = int(math.copysign(total, sum(old))) - teeth[known]
+                teeth[1 - known] = int(math.copysign(sum(twin), sum(old))) - teeth[known]
             elif here is not None and free(here):
                 made["links"][gear.carrier]["length"] = float(f"{modules[wheels[known]] * abs(sum(teeth)):.6g}")
             elif teeth != old:
@@ -329,8 +327,7 @@ def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
     if guide is None or face.partition(".")[0] != str(frame.get("name", "0")) or not isinstance(guide["through"], list):
         return False
     normal = cmath.rect(1.0 if contact.left else -1.0, math.radians(guide["angle"]) + math.pi / 2)
-    through = complex(*guide["through"])
-    distance = ((complex(*drawn) - through) * normal.conjugate()).real
+    distance = ((complex(*drawn) - complex(*guide["through"])) * normal.conjugate()).real
     place = complex(*drawn) + normal * (abs(_disc(made, wheel)) - distance)
     made["drawn"][centre] = [float(f"{part:.12g}") for part in (place.real, place.imag)]
     return True
@@ -338,8 +335,7 @@ def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
 
 def _disc(made: Tables, ref: str) -> float:
     link, _, name = ref.partition(".")
-    owner = made["links"].get(link, made.get("frame", {}))
-    return float(owner["discs"][name]["r"])
+    return float(made["links"].get(link, made.get("frame", {}))["discs"][name]["r"])
 
 
 def _put_back(was: Any, now: Any) -> None:

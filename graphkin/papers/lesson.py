@@ -161,8 +161,7 @@ class Lesson:
             return False
         if symbol.is_vector or symbol.scope != "motion":
             return True
-        rate = self.sheet.rates[symbol.kind][symbol.link]
-        return rate.is_own
+        return self.sheet.rates[symbol.kind][symbol.link].is_own
 
     def unit(self, symbol: Symbol) -> str:
         """The unit of a quantity in the handout."""

@@ -220,15 +220,10 @@ def blank_equations(lesson: Lesson, equations: Iterable[Equation], width: float)
         cells = [len(side) for side in equation.sides]
         signs = [sign for i, n in enumerate(cells) for sign in ["="] * (i > 0) + ["+"] * (n - 1)] or ["="]
         rows.append((max(2, sum(cells)), signs, ""))
-    return _blanks(lesson, rows, width)
+    return blanks(lesson, rows, width)
 
 
-def blank_sums(lesson: Lesson, counts: Iterable[int], width: float) -> Drawing:
-    """A blank for each sum of forces that is zero, given by the number of forces."""
-    return _blanks(lesson, [(count, ["+"] * (count - 1), "= 0") for count in counts], width)
-
-
-def _blanks(lesson: Lesson, rows: Iterable[tuple[int, Sequence[str], str]], width: float) -> Drawing:
+def blanks(lesson: Lesson, rows: Iterable[tuple[int, Sequence[str], str]], width: float) -> Drawing:
     """Rows of boxes with these signs between them and these words after them."""
     language = lesson.language
     rowed = rows_of(lesson.letters.convention) in ("rows", "table")

@@ -256,18 +256,12 @@ def _moved(source: Tables, base: Tables) -> OwnTables:
     if motion.status[0] != "ok":
         raise Unfit(motion.said(0))
     made = copy.deepcopy(dict(source))
-    made["sketch"] = _sketch(start, motion)
+    made["sketch"], step = {}, round_step(start.size / start.units.metres)
+    for point, names in start.holders.items():
+        if start.frame.name not in names:
+            z = complex(motion.position(point)[0]) / start.units.metres
+            made["sketch"][point] = [float(f"{round(c / step) * step:.12g}") for c in (z.real, z.imag)]
     return made
-
-
-def _sketch(scene: Mechanism, motion: Motion) -> dict[str, list[float]]:
-    places = {}
-    for point, names in scene.holders.items():
-        if scene.frame.name not in names:
-            z = complex(motion.position(point)[0]) / scene.units.metres
-            step = round_step(scene.size / scene.units.metres)
-            places[point] = [float(f"{round(c / step) * step:.12g}") for c in (z.real, z.imag)]
-    return places
 
 
 def _flat(motion: Motion, bounds: Bounds) -> Iterator[Phrase]:
@@ -353,12 +347,6 @@ class Job:
     seed: int = 0
     base: Tables | None = None
     trouble: Wording = ""
-
-
-def jobs_of_seed(source: Tables, count: int, seed: int, spread: Spread) -> list[Job]:
-    """A job for each of ``count`` variants of a scene file."""
-    digits = max(2, len(str(count)))
-    return [Job(f"{number:0{digits}d}", number, source, spread, seed) for number in range(1, count + 1)]
 
 
 def work(job: Job, attempt: int) -> Variant:

@@ -28,12 +28,16 @@ from graphkin.errors import CallError, Unsolvable
 from graphkin.files import Json, path_of
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
-from graphkin.papers.course_reports import Figures, class_document, course_report, on_paper, plate
 from graphkin.papers.courses import (
+    Figures,
     Placed,
     Student,
+    class_document,
     class_table,
+    course_report,
     dealt_out,
+    on_paper,
+    plate,
     read_at,
     scheme_for,
     scheme_of,
@@ -176,7 +180,10 @@ def course_design(
         lines.append((who, place))
         figures = shared[scheme.name] | {"loops": _drawn(scheme.scene, "loops", spoken, letters, place.driver)}
         document = course_report(lesson, who, scheme, stands, data, asked, figures)
-        stem = "report" if len(dealt) == 1 and students is None and not data else _stem(k, len(dealt), who)
+        words = "-".join(filter(None, (who.name or who.id, who.scheme, who.place)))
+        stem = f"{k + 1:0{max(2, len(str(len(dealt))))}}-{safe_name(words) if words else 'report'}"
+        if len(dealt) == 1 and students is None and not data:
+            stem = "report"
         content |= papers_as(formats, {stem: document})
         if progress is not None:
             progress(k + 1, len(dealt))
@@ -191,12 +198,6 @@ def course_design(
     blank = answers_template(asked, given.units, "en", drawn, "variant", "at in a class")
     content["answers_template.csv"] = blank.harmless().csv().encode("utf-8-sig")
     return CourseDesigns(given, tuple(lines), asked, content, agrees).saved(out)
-
-
-def _stem(k: int, count: int, who: Student) -> str:
-    """The name of a report's file, unique in the set."""
-    words = "-".join(word for word in (who.name or who.id, who.scheme, who.place) if word)
-    return f"{k + 1:0{max(2, len(str(count)))}}-{safe_name(words) if words else 'report'}"
 
 
 def _drawn(
