@@ -16,11 +16,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
 from graphkin.errors import CallError, Problem, as_list, did_you_mean, unfit
+from graphkin.files import path_of
 from graphkin.scene.asked import known_symbol
-from graphkin.scene.model import Driver, Mechanism, force_of, no_force
-from graphkin.scene.scene import SceneLike, mechanism_of
+from graphkin.scene.drivers import at_time
+from graphkin.scene.model import Mechanism, force_of, no_force
+from graphkin.scene.scene import SceneLike, mechanism_of, safe_name
 from graphkin.scene.scene_tables import Convention, SheetWishes
 from graphkin.scene.symbol import Symbol
+from graphkin.structure import part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase, Wording, clauses, links_named, listed
 
@@ -58,18 +61,12 @@ def known_words(
     if not isinstance(formats, Iterable):
         raise unfit("format", formats, "give a list of", names=listed(known_formats))
     formats = [*formats]
-    wishes: list[tuple[str, object, Sequence[str]]] = [("format", word, known_formats) for word in formats]
-    wishes += [
-        (where, word, known)
-        for where, word, known in (
-            ("lang", language, known_languages),
-            ("convention", convention, CONVENTIONS),
-            ("instrument", instrument, INSTRUMENTS),
-            ("text", text, TEXTS),
-        )
-        if word is not None
-    ]
-    wrong = [problem for where, word, known in wishes for problem in unknown_words(where, [word], known)]
+    wrong = unknown_words("format", formats, known_formats)
+    for where, word, known in (
+        ("lang", language, known_languages), ("convention", convention, CONVENTIONS),
+        ("instrument", instrument, INSTRUMENTS), ("text", text, TEXTS),
+    ):  # fmt: skip
+        wrong += [] if word is None else unknown_words(where, [word], known)
     if not formats:
         wrong.append(Problem("format", "none given", "known here", names=listed(known_formats)))
     if any(isinstance(word, str) and word == "dxf" for word in formats) and find_spec("ezdxf") is None:
@@ -140,7 +137,6 @@ def for_paper(scene: SceneLike, asked: Sequence[Symbol] = ()) -> Mechanism:
     given = as_scene(scene)
     if asked and len(given.links) > MOST_DRAWN:
         from graphkin.solver import structure_of
-        from graphkin.structure import part_of
 
         given = part_of(structure_of(given), asked)
         ends = {point for link in given.links for point in link.points}
@@ -173,9 +169,14 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
                                "give a value of driver at 75 or", key=scene.drivers[0].key)
         return {scene.drivers[0].key: value_at(scene, at)}
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
+    # the whole key first: a link that slides may be turned too
+    known = {**{d.key.split("/")[0]: d for d in reversed(scene.drivers)}, **{d.key: d for d in scene.drivers}}
     values: dict[str, float] = {}
     for name, value in given.items():
-        driver = _driver(scene, str(name))
+        driver = known.get(str(name))
+        if driver is None:
+            wanted = did_you_mean(str(name), [d.key for d in scene.drivers])
+            raise CallError.of(f"at {name}", "no driver of that name", wanted)
         if not isinstance(value, Real) or abs(value) > 1e9 or not math.isfinite(value):
             raise CallError.of(f"at {name}", "is no driver value of value", "give a finite number below 1e9",
                                value=f'{value!r:.60}')
@@ -193,8 +194,7 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
     ------
     CallError : as `driver_values`; a moment or a value outside the law
     """
-    lawful = [d for d in scene.drivers if d.law is not None]
-    if not lawful or at is None:
+    if at is None or all(d.law is None for d in scene.drivers):
         return scene, driver_values(scene, at)
     if isinstance(at, Mapping) and TIME in at and all(d.key != TIME for d in scene.drivers):
         if len(at) > 1:
@@ -202,8 +202,6 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
         time = at[TIME]
         if not isinstance(time, Real) or not math.isfinite(time):
             raise CallError.of(f"at {TIME}", "is no time", "give seconds", time=f'{time!r}')
-        from graphkin.scene.drivers import at_time
-
         return at_time(scene, float(time))
     values = driver_values(scene, at) or {}
     drivers = []
@@ -235,14 +233,6 @@ def value_at(scene: Mechanism, name: str) -> float:
         wanted = did_you_mean(name, known) if known else Phrase("name positions in positions")
         raise CallError.of(Phrase("position", name=name), "there is no position of that name", wanted)
     return named_positions(scene)[name]
-
-
-def _driver(scene: Mechanism, name: str) -> Driver:
-    # the whole key first: a link that slides may be turned too
-    named = [d for d in scene.drivers if name == d.key] + [d for d in scene.drivers if name == d.key.split("/")[0]]
-    if named:
-        return named[0]
-    raise CallError.of(f"at {name}", "no driver of that name", did_you_mean(name, [d.key for d in scene.drivers]))
 
 
 def in_convention(scene: Mechanism, convention: str | None) -> Mechanism:
@@ -333,7 +323,4 @@ def columns_shown(
 def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:
     """The given folder, or else a folder here with the name of the scene.  Raises CallError for a value that is no
     path."""
-    from graphkin.files import path_of
-    from graphkin.scene.scene import safe_name
-
     return path_of(folder) if folder is not None else Path(safe_name(name))

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_EVEN, ROUND_UP, Context
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,20 +16,20 @@ from graphkin.api.results import OfScene, Result
 from graphkin.checking.closed_form import CamPoints, compare_cam
 from graphkin.construction import Sheet
 from graphkin.construction.cam_sheet import divisions
+from graphkin.drawing import Drawing
+from graphkin.drawing.figures.constructions import cam_figure, scaled_cam
 from graphkin.errors import CallError, Disagreement, Problem, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import LawCam
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.tables import tidy
+from graphkin.solver import structure_of
+from graphkin.solver.cams import AtDegree, CamStudy, cam_at, least_base, study_cam
+from graphkin.solver.discs import DiscCam, disc_cams, disc_course
+from graphkin.table import Array, Column, Table, text_column
 from graphkin.words import Neutral, Phrase, say
 from graphkin.words.written import true_minus
-
-if TYPE_CHECKING:
-    from graphkin.drawing import Drawing
-    from graphkin.solver.cams import AtDegree, CamStudy
-    from graphkin.solver.discs import DiscCam
-    from graphkin.table import Array, Table
 
 STEP = 1.0
 FINEST, COARSEST = 0.001, 30.0
@@ -45,8 +44,6 @@ class CamMade:
 
     @cached_property
     def study(self) -> CamStudy:
-        from graphkin.solver.cams import study_cam
-
         return study_cam(self.cam)
 
     @cached_property
@@ -57,8 +54,6 @@ class CamMade:
         ------
         Disagreement : it is not the computed cam
         """
-        from graphkin.drawing.figures.constructions import scaled_cam
-
         sheet = scaled_cam(self.mechanism, self.cam)
         off = compare_cam(self.cam, sheet)
         if not off.ok:
@@ -85,8 +80,7 @@ class CamMade:
     @property
     def _rate(self) -> float:
         """The rate of the law's degree (rad/s), where the cam is driven steadily about the frame; else 0."""
-        drivers = (d for d in self.mechanism.drivers if d.key == self.cam.link)
-        driver = next(drivers, None)
+        driver = next((d for d in self.mechanism.drivers if d.key == self.cam.link), None)
         if driver is None or driver.relative_to != self.mechanism.frame.name or driver.second or driver.law is not None:
             return 0.0
         return self.cam.sense * driver.rate
@@ -100,8 +94,6 @@ class CamMade:
     def wanted_base(self) -> float | None:
         """The least base radius of the profile (m) that meets the wishes; None where the cam meets them, or no radius
         does."""
-        from graphkin.solver.cams import least_base
-
         return None if self.study.ok else least_base(self.cam)
 
     def phrases(self) -> list[Phrase]:
@@ -203,8 +195,6 @@ class CamMade:
 
     def figure(self, language: str) -> Drawing:
         """The cam by inversion, on a page of its own."""
-        from graphkin.drawing.figures.constructions import cam_figure
-
         return cam_figure(self.mechanism, self.cam, self.sheet, self.phrases(), language)
 
     def profile_dxf(self) -> bytes:
@@ -231,22 +221,16 @@ def cam_made(scene: Mechanism) -> tuple[CamMade, ...]:
 def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = ()) -> Table:
     """One row a step (degrees) of each cam, of measured discs by the angle of the driver, from 0 on: cam, angle, lift,
     pitch curve, profile and pressure angle, points in the cam's own axes from its axis."""
-    from graphkin.solver import structure_of
-    from graphkin.solver.cams import cam_at
-    from graphkin.solver.discs import disc_course
-    from graphkin.table import Column, Table, text_column
-
     metres = scene.units.metres
     count = max(1, round(360.0 / step))
     degree = np.arange(count) * (360.0 / count)
     # a degree is a rotation of the law, whatever way the cam turns
+    turned = np.radians(degree)
     courses: list[tuple[str, bool, tuple[Array, Array, Array | None, Array]]] = []
     for cam in scene.cams:
-        at = cam_at(cam, np.radians(degree))
-        course = at.lift, at.profile, None if cam.flat else at.pitch, at.pressure
-        courses.append((cam.link, cam.turns, course))
-    for disc in discs:
-        courses.append((disc.link, disc.swings, disc_course(structure_of(scene), disc, np.radians(degree))))
+        at = cam_at(cam, turned)
+        courses.append((cam.link, cam.turns, (at.lift, at.profile, None if cam.flat else at.pitch, at.pressure)))
+    courses += [(disc.link, disc.swings, disc_course(structure_of(scene), disc, turned)) for disc in discs]
     parts: list[list[Array]] = []
     for _, swings, (lift, profile, pitch, pressure) in courses:
         lift, profile = lift / (math.radians(1.0) if swings else metres), profile / metres
@@ -390,9 +374,6 @@ def cam(
     >>> round(found.data["cams"]["1"]["pressure"]["rise"]["degree"], 4), found.ok
     (56.3214, True)
     """
-    from graphkin.solver import structure_of
-    from graphkin.solver.discs import disc_cams
-
     known_words(formats, language, None, known_languages=ON_SHEETS)
     if isinstance(step, bool) or not isinstance(step, int | float) or not FINEST <= step <= COARSEST:
         raise unfit("step", step, "degrees from to", finest=f"{FINEST:g}", coarsest=f"{COARSEST:g}")

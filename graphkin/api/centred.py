@@ -25,15 +25,15 @@ from graphkin.files import Json, write_files
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import PointRef
-from graphkin.solver import solved_here
+from graphkin.solver import Motion, solved_here
+from graphkin.solver.values import as_drawn
 from graphkin.structure import Structure
+from graphkin.study.centrodes import Centrode, branches, centrode, played, pole_path, steady, turning_centrodes
+from graphkin.table import Column, Table
 from graphkin.words import Phrase, languages, listed, rich_text, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
-    from graphkin.solver import Motion
-    from graphkin.study.centrodes import Centrode
-    from graphkin.table import Table
 
 
 def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str, str]], list[str]]:
@@ -188,7 +188,6 @@ class Centred(OfScene, Result):
         against the frame."""
         from graphkin.drawing.boxes import FigurePage
         from graphkin.drawing.figures.centres_in_motion import centres_in_motion
-        from graphkin.study.centrodes import played, pole_path
 
         frame, whole = self.mechanism.frame.name, self.mechanism.whole
         few = len(self.centres.names) <= MOST_PLAYED
@@ -221,8 +220,6 @@ class Centred(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """A row for each centre, in scene units, with its construction and its distance from the exact one."""
-        from graphkin.table import Table
-
         rows = []
         for pair, centre in self.centres.table.items():
             by = centre.way or " x ".join(" ".join(line) for line in _crossing(centre)) or centre.joint
@@ -312,8 +309,6 @@ def centres(
     """
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given, values = placed(as_scene(scene), at)
-    from graphkin.solver.values import as_drawn
-
     motion = solved_here(given, values)
     found = found_centres(motion.structure, values)
     rests = not any(pose.omega[0] or pose.v[0] for pose in motion.poses.values())
@@ -365,8 +360,6 @@ class Centroded(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """Both curves over the turn and the driver's value in the file's units, the moving one in the link's axes."""
-        from graphkin.table import Column, Table
-
         length, unit = self.mechanism.units.of("length"), self.mechanism.unit_of(self.mechanism.drivers[0])
         columns = [Column("driver", unit.of(self.motion.values[:, 0]), unit.text, form=".12g")]
         for name, curve in (("fixed", self.curves.fixed), ("moving", self.curves.moving)):
@@ -379,7 +372,6 @@ class Centroded(OfScene, Result):
     def figure(self) -> Drawing:
         from graphkin.drawing.boxes import FigurePage
         from graphkin.drawing.figures.centres_in_motion import centrodes_figure
-        from graphkin.study.centrodes import branches
 
         mm, pose, joined = self.centres.mm, self.centres.poses[self.link], self.curves.joined
         moving, path = pose.origin + pose.axis * self.curves.moving * mm, self.path * mm
@@ -422,8 +414,6 @@ def centrodes(
     SceneError, CallError : the file or the call is wrong
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    from graphkin.study.centrodes import centrode, steady, turning_centrodes
-
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given, values = placed(as_scene(scene), at)
     as_text("point", point)

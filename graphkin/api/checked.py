@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from graphkin import solver
 from graphkin.api.arguments import (
     At,
     as_scene,
@@ -27,14 +28,15 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol, asked_here
+from graphkin.solver import Motion
+from graphkin.solver.values import as_drawn, exact_values, forces_here
 from graphkin.structure import part_of
 from graphkin.structure.assembly import ChangePoint
+from graphkin.table import Table
 from graphkin.words import Phrase, listed, say
 
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres
-    from graphkin.solver import Motion
-    from graphkin.table import Table
 
 _FORMS = {
     "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",
@@ -98,8 +100,6 @@ class Checked(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """The readings, in scene units."""
-        from graphkin.table import Table
-
         units, rows = self.mechanism.units, []
         for row in self.report.rows:
             shown = reading_row(self.mechanism, without_residues(row), degrees=True)
@@ -219,8 +219,6 @@ def check(
     >>> result.ok, round(result["v_B@3"].on_paper, 3)
     (True, 107.578)
     """
-    from graphkin import solver
-
     given = in_convention(as_scene(scene), convention)
     asked, by_name = drawn_symbols(given, find), asked_symbols(given, find)
     given, values = placed(given, at)
@@ -247,8 +245,6 @@ def settled(made: Checked, hand: Instrument) -> Checked:
 def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
     """Draw a plan and compare all its readings with the solver at the same position; sliding contacts also at the
     contact itself, by the same hands on another sheet."""
-    from graphkin.solver.values import as_drawn, exact_values, forces_here
-
     if planned.has_forces and hand is not EXACT:  # before hands draw them: it tells best why there are none
         forces_here(as_drawn(motion, planned.structure))
     other, other_hand = planned.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
@@ -276,8 +272,6 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
     ------
     Unsolvable : a position that cannot be assembled or reached, or that lies on a stroke without a whole turn
     """
-    from graphkin import solver
-
     names = dict.fromkeys(s.at for s in asked if s.at)
     if not names:
         return made

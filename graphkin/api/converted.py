@@ -133,11 +133,10 @@ def _bodies(scene: Mechanism) -> Bodies:
         if point in scene.by_name[name].points and point not in made.places:
             made.point(point, complex((motion.point(point, name).z / unit)[0]))
     made.body(FRAME, scene.frame.points)
+    poses = {scene.frame.name: (0j, 1 + 0j)}
     for link in scene.links:
         if not link.redundant:
             made.body(link.name, link.points)
-    poses = {scene.frame.name: (0j, 1 + 0j)}
-    for link in scene.links:
         first, turn = next(iter(link.points), None), cmath.rect(1.0, float(motion.angle(link.name)[0]))
         poses[link.name] = (0j if first is None else made.places[first]), turn
     for pair in scene.slides:
@@ -147,9 +146,8 @@ def _bodies(scene: Mechanism) -> Bodies:
         line = pair.guide
         origin, turn = poses[pair.b]
         through, angle = origin + turn * line.through / unit, cmath.phase(turn * line.direction)
-        made.slides.append(
-            BodySlide(_name(scene, pair.body), pair.pin, _name(scene, pair.b), through, angle, bool(pair.of))
-        )
+        body, base = (FRAME if link == scene.frame.name else link for link in (pair.body, pair.b))
+        made.slides.append(BodySlide(body, pair.pin, base, through, angle, bool(pair.of)))
     made.lost += [told(pair, "left behind") for pair in scene.higher_pairs]
     made.lost += [Phrase("lost redundant link", link=link.name) for link in scene.links if link.redundant]
     made.lost += [Phrase("lost mass", link=mass.link) for mass in scene.loading.masses]
@@ -165,7 +163,3 @@ def _bodies(scene: Mechanism) -> Bodies:
         else:
             made.lost.append(Phrase("lost driver", name=driver.key))
     return made
-
-
-def _name(scene: Mechanism, link: str) -> str:
-    return FRAME if link == scene.frame.name else link

@@ -7,13 +7,16 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import MOST_SEED, ON_SHEETS, hand_of, known_words, whole_number
 from graphkin.api.results import Result, named
+from graphkin.api.solved import solve
 from graphkin.checking.closed_form import FoundLength, compare_lengths
 from graphkin.construction import Sheet
 from graphkin.construction.synthesis import construct
+from graphkin.drawing import Drawing
+from graphkin.drawing.chart import ChartPage
+from graphkin.drawing.figures.constructions import Confirmed, choice_chart, design_figure, design_scale
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.plane import degrees, direction, unit
@@ -29,16 +32,13 @@ from graphkin.scene.designs import (
     design_of,
     scene_table,
 )
-from graphkin.scene.scene import Scene, mechanism_of
+from graphkin.scene.scene import Scene, mechanism_of, toml_text
 from graphkin.scene.symbol import Symbol
-from graphkin.words import LANGUAGES, Neutral, Phrase, say
-
-if TYPE_CHECKING:
-    from graphkin.drawing import Drawing
-    from graphkin.drawing.chart import ChartPage
-    from graphkin.drawing.figures.constructions import Confirmed
-    from graphkin.solver.synthesis import FreeDatum, Synthesis
-    from graphkin.table import Table
+from graphkin.solver import structure_of
+from graphkin.solver.path.driver_range import extremes, range_of
+from graphkin.solver.synthesis import FreeDatum, Synthesis, choice, synthesise
+from graphkin.table import Table
+from graphkin.words import Neutral, Phrase, languages, say
 
 CONFIRMS = 1e-6  # of what was asked: a turn found by searching for its limits
 
@@ -78,15 +78,8 @@ class Designed(Result):
         return Scene.of(scene_table(self.given, self.found.lengths, self.found.places), self.given.name)
 
     @cached_property
-    def confirmed(self) -> tuple[Confirmed, ...]:
+    def confirmed(self) -> Sequence[Confirmed]:
         """The asked values beside those of the scene."""
-        return tuple(self._confirmed())
-
-    def _confirmed(self) -> Sequence[Confirmed]:
-        from graphkin.drawing.figures.constructions import Confirmed
-        from graphkin.solver import structure_of
-        from graphkin.solver.path.driver_range import extremes, range_of
-
         task, metres = self.given.task, self.given.units.metres
 
         def row(what: Phrase, asked: float, found: float, size: float) -> Confirmed:
@@ -135,8 +128,6 @@ class Designed(Result):
         does not reach it."""
         import numpy as np
 
-        from graphkin.api.solved import solve
-
         try:
             motion = solve(self.scene, at=crank).motion
         except Unsolvable:
@@ -144,16 +135,9 @@ class Designed(Result):
         start, end = (complex(np.broadcast_to(motion.point(name).z, 1)[0]) for name in (first, second))
         return end - start if motion.ok[0] else None
 
-    @property
-    def _language(self) -> str:
-        wished = self.language or self.given.sheet.language
-        return wished if wished in LANGUAGES else "en"
-
     @cached_property
     def choice(self) -> FreeDatum | None:
         """The free datum with its best value for the transmission; None without a free datum."""
-        from graphkin.solver.synthesis import choice
-
         free = choice(self.given.task)
         return free if free is not None and 1.002 * free.low < free.best < 0.998 * free.high else None
 
@@ -192,8 +176,6 @@ class Designed(Result):
     @property
     def table(self) -> Table:
         """The lengths: mm on paper, measured, exact, in the file's unit."""
-        from graphkin.table import Table
-
         rows, unit = [(row.symbol, row.on_paper, row.measured, row.exact) for row in self.rows], self.given.units.length
         return Table.of(("symbol", "on_paper", "measured", "exact"), rows, units=("", "mm", unit, unit))
 
@@ -216,8 +198,6 @@ class Designed(Result):
     @cached_property
     def figures(self) -> dict[str, Drawing | ChartPage]:
         """The construction ("design"), and with a free datum the chart of its choice ("choice")."""
-        from graphkin.drawing.figures.constructions import choice_chart, design_figure
-
         spoken = self.language or self.given.sheet.language
         made: dict[str, Drawing | ChartPage] = {
             "design": design_figure(self.given, self.sheet, self.rows, self.confirmed, self.phrases(), spoken)
@@ -226,14 +206,12 @@ class Designed(Result):
             free = self.choice
             now = getattr(self.given.task, free.key)
             made["choice"] = choice_chart(self.given, free.key, free.at, (free.low, free.high), (now, self.found.least),
-                                          (free.best, free.least), self._language)  # fmt: skip
+                                          (free.best, free.least), languages(spoken)[0])  # fmt: skip
         return made
 
     @property
     def files(self) -> Mapping[str, bytes]:
         """The scene with the found lengths."""
-        from graphkin.scene.scene import toml_text
-
         return {"scene.toml": toml_text(self.scene.to_dict()).encode()}
 
     def __repr__(self) -> str:
@@ -270,16 +248,11 @@ def design(
     >>> f"crank {found['AB'].measured:.4f}, rod {found['BC'].measured:.4f}, {found.ok}"
     'crank 23.8220, rod 58.3700, True'
     """
-    from graphkin.drawing.figures.constructions import design_scale
-    from graphkin.solver.synthesis import synthesise
-
     known_words(formats, language, None, instrument, known_languages=ON_SHEETS)
     whole_number("seed", seed, 0, MOST_SEED)
     given = design_of(file)
     synthesis = synthesise(given.task)
-    natural = construct(given.task, max(synthesis.lengths.values()) / 100.0)
-    scale = design_scale(given, natural)
-    hand = hand_of(given.sheet, instrument, seed)
-    sheet = construct(given.task, scale, hand)
+    scale = design_scale(given, construct(given.task, max(synthesis.lengths.values()) / 100.0))
+    sheet = construct(given.task, scale, hand_of(given.sheet, instrument, seed))
     rows = compare_lengths(given.task, sheet, synthesis.lengths, given.sheet.tools)
     return Designed(given, synthesis, sheet, rows, language).saved(out, formats)

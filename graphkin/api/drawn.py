@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -23,31 +23,32 @@ from graphkin.api.arguments import (
     unknown_words,
 )
 from graphkin.api.cams import cam_made, cam_table
+from graphkin.api.centred import ROOM, found_centres
 from graphkin.api.checked import Checked, checked, settled, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
+from graphkin.checking.centres import must_agree
 from graphkin.checking.readings import report_on
+from graphkin.checking.report import ReadValue
 from graphkin.construction import EXACT, Instrument, Plan, execute, plan, plan_with_forces
 from graphkin.construction.board.sheet import Sheet
+from graphkin.drawing import Drawing
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import shown_positions
 from graphkin.drawing.place.obstacles import short_buffers
+from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol, asked_here
-from graphkin.solver import solved_here
+from graphkin.solver import Motion, solved_here, structure_of
+from graphkin.solver.path.named_positions import named_positions
 from graphkin.structure import Structure
 from graphkin.structure.analysis import driven_by
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, languages
-
-if TYPE_CHECKING:
-    from graphkin.checking.report import ReadValue
-    from graphkin.drawing import Drawing
-    from graphkin.solver import Motion
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -76,8 +77,6 @@ class Drawn(OfScene, Result):
     @cached_property
     def small(self) -> Checked:
         """The construction at the scales that fit the sheet, with its own readings."""
-        from graphkin.drawing.sheet_plan import sheet_room
-
         fitting = replace(self.plan, scales=self.plan.exact.scales_for(sheet_room(self.mechanism)))
         return checked(fitting, self.motion, self._hand)
 
@@ -181,9 +180,6 @@ class Drawn(OfScene, Result):
 
 
 def _centres(drawn: Drawn) -> tuple[Any, ...]:
-    from graphkin.api.centred import ROOM, found_centres
-    from graphkin.checking.centres import must_agree
-
     whole = drawn.checked
     # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres
     exact = whole.sheet.instrument == EXACT.name
@@ -202,8 +198,6 @@ def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
 
 
 def _positions(drawn: Drawn) -> tuple[Any, ...]:
-    from graphkin.solver.path.named_positions import named_positions
-
     shown = shown_positions(drawn.whole, named_positions(drawn.mechanism))
     return shown.own, shown
 
@@ -296,8 +290,6 @@ def draw(
     SceneError, CallError : the file or the call is wrong
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
-    from graphkin import solver
-
     known_words(formats, language, convention, instrument, known_languages=ON_SHEETS)
     given = in_convention(as_scene(scene), convention)
     wanted = known_figures(given, figures)
@@ -310,7 +302,7 @@ def draw(
     given = for_paper(given, () if any(figure_kinds()[name].of_all for name in wanted) else asked_here(asked))
     given, values = placed(given, at)
     hand = hand_of(given.question.sheet, instrument, seed)
-    structure = solver.structure_of(given)
+    structure = structure_of(given)
     motion = solved_here(structure, values, asked_here(asked))
     planned = plan_with_forces(structure, values, asked_here(asked), asked_symbols(given, find))
     whole = with_elsewhere(settled(checked(planned, motion, hand), hand), asked, seed)

@@ -22,6 +22,7 @@ from graphkin.scene.model import Driver, Mechanism, PlacedLink, forces_named
 from graphkin.scene.pairs import told
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.tables import Unit
+from graphkin.solver import structure_of
 from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, about, class_of, listed, sense_of, word
@@ -110,8 +111,6 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     status, exit_code = "ok", 0
     groups: list[Phrase] = []
     try:
-        from graphkin.solver import structure_of
-
         groups = [*_groups(structure_of(given), given)]
     except Unsolvable as error:
         why, status, exit_code = error.reason, error.status, error.exit_code

@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from numbers import Real
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,15 +19,12 @@ from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver.compiled.kernel import pays
-from graphkin.study.designs import Designs
+from graphkin.solver.prepared import PreparedMechanism
+from graphkin.study.designs import Designs, Numbers, design_keys
+from graphkin.study.prepared_designs import PreparedMechanisms
 from graphkin.study.sweeps import FollowedDesign, Sweep
 from graphkin.table import Table, Tabled
 from graphkin.words import Phrase, listed
-
-if TYPE_CHECKING:
-    from graphkin.solver.prepared import PreparedMechanism
-    from graphkin.study.designs import Numbers
-    from graphkin.study.prepared_designs import PreparedMechanisms
 
 Reals = NDArray[np.float64]
 
@@ -175,9 +171,6 @@ class Prepared(Tabled, OfScene):
         CallError : a key that the scene does not have or that changes no dimension; values that are no finite numbers,
             lengths that are not positive, or values of different shapes
         """
-        from graphkin.study.designs import design_keys
-        from graphkin.study.prepared_designs import PreparedMechanisms
-
         if self.ready.solved:
             raise CallError.of("over", "are not given over designs", "prepare each design or sweep over designs",
                                names=listed([*map(str, self.ready.solved)]))

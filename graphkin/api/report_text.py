@@ -5,14 +5,14 @@ of the study of a turn.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import passed_words
 from graphkin.api.checked import Checked
 from graphkin.checking.report import deviation, exact, measured, paper
 from graphkin.construction.board.sheet import Equation
-from graphkin.construction.board.steps import Term, plain_in
+from graphkin.construction.board.steps import plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.scene.tables import Unit
@@ -65,10 +65,9 @@ def report_text(checked: Checked, language: str) -> str:
         lines += [*_rows(equation, language), ""]
     lines += _forces(checked, language)
     lines.append(word("readings", language))
-    head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
-    first, *others = head
-    wide = (12, 16, 16)
-    lines.append(_left(first, 16) + "".join(" " * (w - _width(one)) + one for w, one in zip(wide, others, strict=True)))
+    heads = [(word(key, language), wide) for key, wide in (("on paper", 12), ("measured", 16), ("exact", 16))]
+    right = "".join(" " * (wide - _width(head)) + head for head, wide in heads)
+    lines.append(_left(word("quantity", language), 16) + right)
     for symbol, length, read, true, own_unit, ok in reading_words(checked):
         mark = {True: "", False: "  !", None: "  ?"}[ok]
         lines.append(f"{symbol:<16}{length:>12}{read:>16}{true:>16} {own_unit}{mark}".rstrip())
@@ -185,7 +184,9 @@ def _rows(equation: Equation, language: str) -> list[str]:
         for j, term in enumerate(side):
             if j:
                 columns.append(("+", "", ""))
-            columns.append((plain(term.symbol), _size(term, plain), _direction(term, plain)))
+            size = (plain(term.size) if term.size else "√") if term.size_known else "?"
+            direction = (plain(term.direction) or "√") if term.direction_known else "?"
+            columns.append((plain(term.symbol), size, direction))
     widths = [max(map(_width, column)) for column in columns]
     heads = ("", word("size", language), word("direction of", language))
     rows = ([_left(c[i], w) for c, w in zip(columns, widths, strict=True)] for i in range(len(heads)))
@@ -202,16 +203,6 @@ def _width(text: str) -> int:
     return sum(2 if ord(c) > 0x2E7F else 1 for c in text)
 
 
-def _size(term: Term, plain: Callable[[object], str]) -> str:
-    return (plain(term.size) if term.size else "√") if term.size_known else "?"
-
-
-def _direction(term: Term, plain: Callable[[object], str]) -> str:
-    if not term.direction_known:
-        return "?"
-    return plain(term.direction) or "√"
-
-
 MOST_CURVES = 40
 
 
@@ -223,8 +214,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     if turn.reach.full:
         said = word("full turn", language)
         if turn.reach.turns > 1:
-            repeats = say(Phrase("turns to close", turns=turn.reach.turns), language)
-            said += semicolon + repeats
+            said += semicolon + say(Phrase("turns to close", turns=turn.reach.turns), language)
     else:
         said = _between(scene, turn.ranges[0], language)
     lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
@@ -350,7 +340,7 @@ def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
 
 def _curves(turn: TurnStudy, language: str) -> list[str]:
     scene = turn.scene
-    lines: list[str] = []
+    lines = []
     moving = [t for t in turn.curves if t.constant is None and not t.quantity.is_position]
     for traced in moving[:MOST_CURVES]:
         quantity, unit = traced.quantity, traced.quantity.unit(scene.units)

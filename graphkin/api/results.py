@@ -9,17 +9,17 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, Self, TypeVar
 
+from graphkin.api.arguments import known_words, own_folder
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json, write_files
-from graphkin.table import Tabled
+from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import Scene
+from graphkin.table import Table, Tabled
+from graphkin.words import Wording
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.drawing.chart import ChartPage
-    from graphkin.scene.model import Mechanism
-    from graphkin.scene.scene import Scene
-    from graphkin.table import Table
-    from graphkin.words import Wording
 
 T = TypeVar("T")
 
@@ -40,8 +40,6 @@ class OfScene:
     @cached_property
     def scene(self) -> Scene:
         """The scene as it was given, for changes by key (``scene.replace("links.1.length", 60)``) and saved."""
-        from graphkin.scene.scene import Scene
-
         return Scene.saying(self.mechanism)
 
 
@@ -103,8 +101,6 @@ class Result(Tabled):
         ------
         CallError : an unknown format, a folder that cannot be written
         """
-        from graphkin.api.arguments import own_folder
-
         pages = self.pages(formats, text)
         target = own_folder(folder, self.name)
         paths = write_files(target, pages)
@@ -119,8 +115,6 @@ class Result(Tabled):
 
     def pages(self, formats: Sequence[str], text: str = "glyphs") -> dict[str, bytes]:
         """The files of its figures; in PDF further pages of a figure are in its file.  Raises CallError."""
-        from graphkin.api.arguments import known_words
-
         known_words(formats, text=text, known_formats=self.figure_formats)
         continued = {id(page) for figure in self.figures.values() for page in getattr(figure, "further", ())}
         return {

@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from graphkin.api.results import Result, named
 from graphkin.files import Json
-from graphkin.scene.scene import library, library_text, mechanism_of, read
+from graphkin.scene.scene import Scene, library, library_text, mechanism_of, read
 from graphkin.structure import analyse
+from graphkin.table import Table
 from graphkin.words import Phrase
-
-if TYPE_CHECKING:
-    from graphkin.scene.scene import Scene
-    from graphkin.table import Table
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -48,8 +44,6 @@ class Listed(Result):
     @property
     def table(self) -> Table:
         """A row for each scene."""
-        from graphkin.table import Table
-
         return Table.of(("scene", "title", "title_zh", "mobility"), self.rows)
 
     @property

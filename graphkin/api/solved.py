@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin import solver
 from graphkin.api.arguments import (
     At,
     as_scene,
@@ -28,17 +29,17 @@ from graphkin.scene.drivers import moment_of, moments, moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import mobility_of
-from graphkin.study.quantities import columns_of, parts_of
-from graphkin.table import Values
+from graphkin.solver import Motion
+from graphkin.solver.forces import Forces, forces_of
+from graphkin.solver.path.named_positions import name_at, named_positions
+from graphkin.solver.values import entries, head, json_text
+from graphkin.structure import Structure, mobility_of
+from graphkin.study.quantities import all_that_moves, columns_of, motion_table, parts_of
+from graphkin.table import Array, Column, Table, Values
 from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
     from graphkin.account.loops import LoopText
-    from graphkin.solver import Motion
-    from graphkin.solver.forces import Forces
-    from graphkin.structure import Structure
-    from graphkin.table import Array, Column, Table
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Solved(OfScene, Result):
@@ -95,8 +96,6 @@ class Solved(OfScene, Result):
 
     def _motions(self) -> Iterator[Motion]:
         """The motion without regard to forces, of a long sweep part by part."""
-        from graphkin import solver
-
         if self.count is None:
             yield solver.solve(self.structure, at=self.values)
         elif self.times:
@@ -107,8 +106,6 @@ class Solved(OfScene, Result):
     @cached_property
     def _moved(self) -> Motion:
         """The motion of all positions, without regard to forces."""
-        from graphkin import solver
-
         if self.part is not None:
             return self.part
         whole = len(self.first._moved) == (self.count or 1)
@@ -135,8 +132,6 @@ class Solved(OfScene, Result):
 
     @cached_property
     def _forces(self) -> Forces | Unsolvable | None:
-        from graphkin.solver.forces import forces_of
-
         try:
             return forces_of(self._moved) if self._moved.scene.loading else None
         except Unsolvable as stop:
@@ -160,8 +155,6 @@ class Solved(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """A row for each position: the drivers' values, all motions, the status and its reason."""
-        from graphkin.study.quantities import all_that_moves, motion_table
-
         motion, scene = self.motion, self.mechanism
         all_known = all_that_moves(motion.structure)
         if self.without_forces:
@@ -203,8 +196,6 @@ class Solved(OfScene, Result):
     @cached_property
     def head(self) -> dict[str, Json]:
         """The entries of ``data`` before its positions."""
-        from graphkin.solver.values import head
-
         return head(self.first.motion)
 
     def entries(self) -> Iterator[dict[str, Json]]:
@@ -213,9 +204,6 @@ class Solved(OfScene, Result):
             yield from block._entries()
 
     def _entries(self) -> Iterator[dict[str, Json]]:
-        from graphkin.solver.path.named_positions import name_at, named_positions
-        from graphkin.solver.values import entries
-
         places = named_positions(self.mechanism) if self.motion.ok.any() else {}
         asked = {name: self._plain(name) for name in self.find}
         for k, entry in enumerate(entries(self.motion, self.forces)):
@@ -229,7 +217,8 @@ class Solved(OfScene, Result):
                 kept = ("driver", "time", "name", "status", "why", "error_bound")
                 entry = {key: entry[key] for key in kept if key in entry}
                 if entry["status"] == "ok":
-                    entry["values"] = {name: _finite(values[k]) for name, values in asked.items()}
+                    known = {name: bool(np.isfinite(values[k]).all()) for name, values in asked.items()}
+                    entry["values"] = {n: values[k].tolist() if known[n] else None for n, values in asked.items()}
             yield entry
 
     def _plain(self, name: str) -> NDArray[np.float64]:
@@ -264,14 +253,7 @@ class Solved(OfScene, Result):
 
     def json(self) -> Iterator[bytes]:
         """``data`` as the text of JSON, piece by piece."""
-        from graphkin.solver.values import json_text
-
         return (piece.encode() for piece in json_text(self.head, self.entries()))
-
-
-def _finite(value: NDArray[np.float64] | NDArray[np.complex128]) -> float | list[float] | None:
-    """A number or the components of a vector for JSON; None where it is not known."""
-    return value.tolist() if np.isfinite(value).all() else None
 
 
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:
@@ -320,8 +302,6 @@ def solve(
     >>> solved.table["v_D.x"].round(2).tolist()
     [-482.72]
     """
-    from graphkin import solver
-
     given = as_scene(scene)
     most = 100_000 if moves_by_law(given) else 10_000_000
     count, values = None if sweep is None else whole_number("sweep", sweep, 1, most, "positions of number"), None

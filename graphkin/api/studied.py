@@ -14,13 +14,13 @@ from graphkin.api.results import Result, named
 from graphkin.errors import CallError, as_list
 from graphkin.files import Json, path_of
 from graphkin.scene.scene import SceneLike
+from graphkin.table import Table
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import ChartPage
     from graphkin.races import Entry, Race
     from graphkin.study.error_laws import Singularity
-    from graphkin.table import Table
 
 T = TypeVar("T")
 

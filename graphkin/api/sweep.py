@@ -29,6 +29,7 @@ from graphkin.api.arguments import (
     whole_number,
 )
 from graphkin.api.results import OfScene, Result
+from graphkin.checking.answers import AnswersLike, as_answers
 from graphkin.errors import CallError, Problem, as_list, as_text
 from graphkin.files import Json, path_of, write_files
 from graphkin.jobs import Progress, Workers, cluster
@@ -36,20 +37,21 @@ from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, written
 from graphkin.scene.symbol import Symbol
-from graphkin.table import Table, have
+from graphkin.solver import solve, structure_of
+from graphkin.solver.forces import senses_along
+from graphkin.study.designs import applied, designs_of
+from graphkin.study.sweeps import FollowedDesign, Outcome, Sweep, at_once, collect, designs_table, write_tables
+from graphkin.table import Array, Table, have
 from graphkin.words import Phrase, listed, say, word
 
 if TYPE_CHECKING:
     import xarray
 
-    from graphkin.checking.answers import AnswersLike
     from graphkin.drawing import Drawing
     from graphkin.drawing.chart import ChartPage
     from graphkin.study.graphical import Chords, Way
     from graphkin.study.over_time import TimeStudy
-    from graphkin.study.sweeps import Outcome, Sweep
     from graphkin.study.turn import TurnStudy
-    from graphkin.table import Array
 
 MOST_POSITIONS = 1_000_000_000
 MOST_MOMENTS = 100_000
@@ -121,8 +123,6 @@ class Swept(OfScene, Result):
     @cached_property
     def designs(self) -> Table | None:
         """Over designs a row for each: replaced values, status, strokes, K, least transmission angles."""
-        from graphkin.study.sweeps import designs_table
-
         return designs_table(self.over, self.by_design) if self.over.designs.keys else None
 
     @cached_property
@@ -325,10 +325,6 @@ def sweep(
     >>> f"{abs(swept['v_C']).max():.0f} mm/s at most"
     '1346 mm/s at most'
     """
-    from graphkin.solver import structure_of
-    from graphkin.study.designs import designs_of
-    from graphkin.study.sweeps import FollowedDesign, Sweep, at_once, collect, write_tables
-
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
     require_callable("progress", progress)
     positions = None if positions is None else whole_number("positions", positions, 1, MOST_POSITIONS)
@@ -343,8 +339,6 @@ def sweep(
     source, name = written(scene) if made.keys else (as_scene(scene), "")
     given = in_convention(as_scene(source), convention)
     if isinstance(source, Mapping) and len(made):
-        from graphkin.study.designs import applied
-
         applied(source, made.keys, made[0])  # keys that the scene does not have
     if not given.drivers:
         structure_of(given)  # a sentence: what drives is missing
@@ -402,10 +396,6 @@ def sweep(
 def _elsewhere(scene: Mechanism, measured: AnswersLike) -> dict[Symbol, list[tuple[float, float]]]:
     """Values measured elsewhere, each with the first driver's value (rad, m): SI, of a vector its size, or, where the
     column has signs, its place along the guide on which it lies."""
-    from graphkin.checking.answers import as_answers
-    from graphkin.solver import solve
-    from graphkin.solver.forces import senses_along
-
     rows, _ = as_answers(scene, measured)
     if any(row.at is None for row in rows):
         raise CallError.of("measured", "has no column at", "write the driver's value of each row under")

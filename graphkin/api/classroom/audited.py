@@ -7,7 +7,6 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -39,10 +38,8 @@ from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Motion, driver_range, solved_here, structure_of
 from graphkin.solver.forces import value_of
 from graphkin.solver.values import exact_values
+from graphkin.table import Table
 from graphkin.words import Phrase, say, word
-
-if TYPE_CHECKING:
-    from graphkin.table import Table
 
 POSITIONS = 72
 MOST_DRAWN = 6  # rows of a table that are drawn each
@@ -142,8 +139,6 @@ class Audited(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """The values and their verdicts as texts, in the language of the call."""
-        from graphkin.table import Table
-
         return Table.of(self.heads, self.rows)
 
     @cached_property
@@ -180,8 +175,6 @@ def _head(key: str, language: str) -> str:
 
 def _tabled(rows: Sequence[Mapping[str, object]], last: Sequence[str], language: str) -> Table:
     """Rows as a table with a head for each of their keys, some of them at the end."""
-    from graphkin.table import Table
-
     known = dict.fromkeys(key for row in rows for key in row)
     keys = [*(key for key in known if key not in last), *(key for key in last if key in known)]
     return Table.of([_head(key, language) for key in keys], [[_cell(row.get(key)) for key in keys] for row in rows])

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property, partial
-from typing import TYPE_CHECKING
 
 from graphkin import solver
 from graphkin.api.arguments import (
@@ -22,6 +21,8 @@ from graphkin.api.arguments import (
     unknown_words,
     whole_number,
 )
+from graphkin.api.cams import cam_made
+from graphkin.api.classroom.task_papers import cam_papers
 from graphkin.api.results import OfScene, Result, named
 from graphkin.errors import CallError, as_list
 from graphkin.files import Json, path_of
@@ -39,6 +40,7 @@ from graphkin.papers.documents import (
     solution_blocks,
 )
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
+from graphkin.papers.html import blocks_html
 from graphkin.papers.lesson import Lesson, lesson_of, usual_count, views_of
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import FORMATS, papers_as
@@ -49,10 +51,8 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import solved_here
+from graphkin.table import Table
 from graphkin.words import Phrase, languages, listed
-
-if TYPE_CHECKING:
-    from graphkin.table import Table
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -97,8 +97,6 @@ class Handout(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """The answer key, in scene units."""
-        from graphkin.table import Table
-
         return Table.of([f.name for f in fields(KeyRow)], [tuple(asdict(row).values()) for row in self.key])
 
     @property
@@ -111,22 +109,13 @@ class Handout(OfScene, Result):
     def files(self) -> Mapping[str, bytes]:
         """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv,
         answers_template.csv for a class to fill in, and the files for learning platforms."""
-        made = papers_in(self.lesson, self.formats, self._page)
+        papers = papers_in(self.lesson, self.formats, self._page)
         blank = answers_template(self.lesson.questions, self.mechanism.units, languages(self.lesson.language)[0])
-        questions = files_for(self.question, self.exports) if self.question is not None else {}
-        return {**made, "answers_template.csv": blank.csv().encode("utf-8-sig"), **self._of_cams, **questions}
-
-    @property
-    def _of_cams(self) -> Mapping[str, bytes]:
-        """Problem, solution and key of each cam drawn by inversion."""
-        from graphkin.api.cams import cam_made
-        from graphkin.api.classroom.task_papers import cam_papers
-
-        papers: dict[str, bytes] = {}
+        papers["answers_template.csv"] = blank.csv().encode("utf-8-sig")
         for i, made in enumerate(cam_made(self.mechanism)):
             prefix = f"cam-{made.cam.link}-" if i else "cam-"
             papers |= cam_papers(made, self.formats, self.lesson.language, prefix)
-        return papers
+        return papers | (files_for(self.question, self.exports) if self.question is not None else {})
 
     def _page(self, worked: Sequence[Block]) -> str:
         """The solution to step through, with the positions of the driver and the mechanism in motion."""
@@ -147,8 +136,6 @@ class Handout(OfScene, Result):
         return f"<Handout {self.mechanism.name}: {', '.join(self.formats)}>"
 
     def _repr_html_(self) -> str:
-        from graphkin.papers.html import blocks_html
-
         return blocks_html(answer_key(self.lesson).blocks, languages(self.lesson.language)[0])
 
 

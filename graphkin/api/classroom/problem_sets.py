@@ -39,13 +39,13 @@ from graphkin.papers.variants import (
     Variant,
     accepted,
     asked_of,
-    jobs_of_seed,
     make,
 )
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike, as_mapping, safe_name, toml_text, written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at
+from graphkin.solver import driver_range, structure_of
 from graphkin.study.designs import applied
 from graphkin.table import Rows, Table, table_of, with_points
 from graphkin.words import Phrase, clauses, languages, say
@@ -242,15 +242,14 @@ def _jobs(
         if not varied_keys(source):
             raise CallError.of("variants", "nothing in the scene can vary", "give lengths and a driver")
         spread = spread if spread.reach else replace(spread, reach=_reach(as_scene(source)))
-        return jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread), ()
+        seed, digits = whole_number("seed", seed, -MOST_SEED, MOST_SEED), max(2, len(str(count)))
+        return [Job(f"{number:0{digits}d}", number, source, spread, seed) for number in range(1, count + 1)], ()
     table, data, others = _data_of(source, rows)
     return list(_jobs_of_rows(source, data, others, table.rows)), tuple(table.heads[i] for i in others[1:])
 
 
 def _reach(scene: Mechanism) -> tuple[float, float] | None:
     """The least and greatest angle (degrees) of a first driver that cannot turn fully; None for another."""
-    from graphkin.solver import driver_range, structure_of
-
     structure = structure_of(scene)
     if not structure.scene.drivers[0].turns:
         return None

@@ -155,8 +155,7 @@ def write_design_papers(
     CallError : an unknown format, a folder that cannot be written
     """
     known_words(formats, known_formats=("html", "pdf"))
-    target = own_folder(folder, designed.given.name)
-    return write_files(target, design_papers(designed, formats))
+    return write_files(own_folder(folder, designed.given.name), design_papers(designed, formats))
 
 
 def _notes(designed: Designed, language: str) -> list[Said]:
@@ -171,14 +170,12 @@ def _notes(designed: Designed, language: str) -> list[Said]:
 
     if known:
         made.append(in_each(language, lambda each: labelled("confirmed", told(each), each)))
-    spoken = {each: designed.sentences(each) for each in languages(language)}
-    return [*made, *_by_sentence(spoken)]
+    return [*made, *_sentences(designed, language)]
 
 
-def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
-    """The sentences of each language, joined one by one."""
-    sentences = ([(each, text) for text in texts] for each, texts in spoken.items())
-    return [tuple(pairs) for pairs in zip(*sentences, strict=True)]
+def _sentences(of: Designed | CamMade, language: str) -> list[Said]:
+    """The sentences on a result, each in the languages of a sheet."""
+    return list(zip(*([(each, text) for text in of.sentences(each)] for each in languages(language)), strict=True))
 
 
 def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str = "cam-") -> Mapping[str, bytes]:
@@ -199,7 +196,6 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         per = 1.0 if swings else sheet.scales.length / metres
         read = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
         results.append(_result(sign(letter, str(k)), unit, read, number(value, 5), value, deviation, -math.inf))
-    spoken = {each: made.sentences(each) for each in languages(language)}
     captions = said("cam diagram", language), said("cam figure", language)
     return _papers(
         title=in_each(language, lambda each: scene.question.title_in(each) or scene.name),
@@ -209,7 +205,7 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         whole=dict(zip(captions, cam_pictures(scene, cam, sheet, language), strict=True)),
         sheet=sheet,
         results=results,
-        notes=_by_sentence(spoken),
+        notes=_sentences(made, language),
         language=language,
         paper=Paper(*scene.question.sheet.size),
         formats=formats,
