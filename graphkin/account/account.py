@@ -104,8 +104,7 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichT
 
 
 def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[RichText]:
-    """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum, whose line tells
-    it."""
+    """``ω_2 = ω_1``: links that slide on a driven one turn as it does, unless a line tells its rate as a sum."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
     rates = sheet.rates[kind]
     told = {step.link for step in sheet.steps if isinstance(step, RateStep) and step.reason == "sum of rates"}

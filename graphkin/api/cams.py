@@ -57,8 +57,9 @@ class CamMade:
         sheet = scaled_cam(self.mechanism, self.cam)
         off = compare_cam(self.cam, sheet)
         if not off.ok:
-            most = f"{max(off.pitch, off.profile, 0.0 if self._swings else off.lift) / self.mechanism.units.metres:.3g}"
-            angle = f"{math.degrees(max(off.pressure, off.lift if self._swings else 0.0)):.3g}"
+            slid, turned = (0.0, off.lift) if self.cam.turns else (off.lift, 0.0)
+            most = f"{max(off.pitch, off.profile, slid) / self.mechanism.units.metres:.3g}"
+            angle = f"{math.degrees(max(off.pressure, turned)):.3g}"
             found = Phrase("is drawn off the computed cam", most=most, unit=self.mechanism.units.length, angle=angle)
             said = Phrase("no paper is written please report this scene")
             raise Disagreement(Problem(f"cams.{self.cam.link}", found, said))
@@ -72,10 +73,6 @@ class CamMade:
     @property
     def ok(self) -> bool:
         return self.study.ok and self.drawn.ok
-
-    @property
-    def _swings(self) -> bool:
-        return self.cam.turns
 
     @property
     def _rate(self) -> float:
@@ -146,7 +143,7 @@ class CamMade:
         for key, most, order in (("velocity", self.study.velocity, 1), ("acceleration", self.study.acceleration, 2)):
             value = most.value * (turns**order or 1.0)
             per = ("/s", "/s²") if turns else ("/rad", "/rad²")
-            if self._swings:
+            if self.cam.turns:
                 name = "rad" + per[order - 1]
             else:
                 value, name = value / units.metres, units.length + per[order - 1]
@@ -163,7 +160,7 @@ class CamMade:
     def data(self) -> dict[str, Json]:
         """Plain data: lengths in the scene's unit, angles in degrees of the cam under ``degree``, else radians."""
         metres, study = self.mechanism.units.metres, self.study
-        lift = 1.0 if self._swings else metres
+        lift = 1.0 if self.cam.turns else metres
 
         def degrees(angle: float) -> float:
             return tidy(math.degrees(angle))

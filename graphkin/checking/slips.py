@@ -391,8 +391,7 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
 
 
 def _sort(symbol: Symbol) -> str:
-    """The kind of a quantity by a common name; an arm of the lever, which is a velocity on paper, is a kind of its
-    own."""
+    """The kind of a quantity by a common name; an arm of the lever, a velocity on paper, is a kind of its own."""
     return "arm" if symbol.kind == "arm" else symbol.measure.name
 
 

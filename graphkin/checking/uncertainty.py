@@ -165,8 +165,7 @@ def _bent(
 
 
 def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """The errors of all acts, in deviations, with a sum of squares of 1, that change a reading most: along its
-    principal axis."""
+    """The errors of all acts (deviations, sum of squares 1) that change a reading most: along its principal axis."""
     parts = np.stack((row.real, row.imag))
     axis = np.linalg.eigh(parts @ parts.T)[1][:, 1]
     errors = axis @ parts
@@ -231,20 +230,18 @@ def advise(
     largest: dict[str, float] = {}
     for r in readings:
         largest[_sort(r.symbol)] = max(largest.get(_sort(r.symbol), 0.0), abs(r.value))
-    worst: tuple[float, Symbol] | None = None
+    parts: dict[Symbol, float] = {}
     for r in readings:
         expected = predicted.get(r.symbol)
         if expected is None or not 0.0 < expected.deviation < math.inf:
             continue
-        if abs(r.value) <= max(SMALL * largest[_sort(r.symbol)], expected.bound):
-            continue  # too small, or nothing that is told from zero, such as velocities at rest
-        part = expected.deviation / abs(r.value)
-        if worst is None or part > worst[0]:
-            worst = part, r.symbol
-    if worst is None:
+        # what is smaller is too small, or nothing that is told from zero, such as velocities at rest
+        if abs(r.value) > max(SMALL * largest[_sort(r.symbol)], expected.bound):
+            parts[r.symbol] = expected.deviation / abs(r.value)
+    if not parts:
         return None
-    relative, symbol = worst
-    gains = {}
+    symbol = max(parts, key=parts.__getitem__)
+    relative, gains = parts[symbol], {}
     for figure in ("length", "velocity", "acceleration"):
         scales: Scales = replace(planned.scales, **{figure: getattr(planned.scales, figure) / 2})
         larger = predict(replace(planned, scales=scales), name, tools, together=False)

@@ -249,7 +249,7 @@ def solve(given: Given) -> None:
 
 def _print_solution(solved: Solved, lang: str | None) -> None:
     from graphkin.api.arguments import passed_words
-    from graphkin.api.solution_text import solution_tables
+    from graphkin.api.solved import solution_tables
     scene, blocks = solved.mechanism, solved.blocks()
     head: Mapping[str, Any] = solved.head
     first = next(blocks)

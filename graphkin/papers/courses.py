@@ -157,27 +157,23 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     Raises CallError for a table without names, and for all unknown schemes and positions.
     """
     table = table_of(students)
-    columns = {
-        role: i for role, names in HEADS.items() for i, head in reversed(tuple(enumerate(table.heads)))
-        if head.strip().lower() in names
-    }  # fmt: skip
+    heads = [head.strip().lower() for head in table.heads]
+    columns = {role: heads.index(head) for role, names in HEADS.items() for head in reversed(heads) if head in names}
     if "name" not in columns and "id" not in columns:
         raise CallError.of(str(students), "no column of names", "write a head name or id",
                            names=some_of(table.heads))
-    problems: list[Problem] = []
-    head = table.heads[columns["scheme"]].strip().lower() if "scheme" in columns else ""
+    read = [
+        (line, Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()}))
+        for line, cells in table.rows
+    ]
+    head = heads[columns["scheme"]] if "scheme" in columns else ""
     may_be_groups = len(course) == 1 and head in GROUPS
-    if head and "" in course and not may_be_groups:
-        named = dict.fromkeys(cells[columns["scheme"]] for _, cells in table.rows if len(cells) > columns["scheme"])
-        if schemes := [*filter(None, named)]:
-            found, wanted = (
-                Phrase("schemes without their data", schemes=some_of(schemes)),
-                Phrase("give a row for each rows file.csv"),
-            )
-            raise CallError.of(f"{students}, {head}", found, wanted)
-    listed = []
-    for line, cells in table.rows:
-        who = Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()})
+    schemes = [*dict.fromkeys(who.scheme for _, who in read if who.scheme)]
+    if schemes and "" in course and not may_be_groups:
+        raise CallError.of(f"{students}, {head}", "schemes without their data", "give a row for each rows file.csv",
+                           schemes=some_of(schemes))
+    listed, problems = list[Student](), list[Problem]()
+    for line, who in read:
         where = Phrase("line of students and line", students=students, line=line)
         if who.scheme and who.scheme not in course and not may_be_groups:
             problems.append(Problem(where, "there is no scheme", did_you_mean(who.scheme, course), scheme=who.scheme))
@@ -195,23 +191,22 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     free = {name: [p for p, v in scheme.places.items() if v.read] for name, scheme in course.items()}
     if not any(free.values()):
         raise CallError.of("positions", "none of them can be drawn", "give others in positions")
-    taken: dict[str, list[str]] = {}
+    taken: dict[str, list[str]] = {name: [] for name in course}
     for who in listed:
         if who.place and (who.scheme or len(course) == 1):
-            taken.setdefault(scheme_for(who, course).name, []).append(who.place)
+            taken[scheme_for(who, course).name].append(who.place)
     for who in listed:
         if not who.scheme and len(course) > 1:
             # the first scheme with a position left, and when all are dealt out from the start again
-            rounds = {n: len(taken.get(n, ())) // max(1, len(free[n])) for n in free}
-            alike = {n: taken.get(n, []).count(who.place) for n in free}
+            rounds = {n: len(taken[n]) // max(1, len(free[n])) for n in free}
+            alike = {n: taken[n].count(who.place) for n in free}
             who = replace(who, scheme=min(free, key=lambda n: (alike[n], rounds[n])))
             if who.place:
-                taken.setdefault(who.scheme, []).append(who.place)
+                taken[who.scheme].append(who.place)
         if not who.place:
             scheme = scheme_for(who, course).name
-            places_taken, places = taken.setdefault(scheme, []), free[scheme]
-            who = replace(who, place=min(places, key=places_taken.count))
-            places_taken.append(who.place)
+            who = replace(who, place=min(free[scheme], key=taken[scheme].count))
+            taken[scheme].append(who.place)
         yield who
 
 

@@ -638,8 +638,7 @@ def _leads_on(stage: Stage, after: Stage | None) -> bool:
 
 
 def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragraph | Picture]:
-    """The head of an equation's steps: the equation over its rows, and its reasons; ``count`` is the number of their
-    figure."""
+    """The head of an equation's steps: the equation over its rows, its reasons; ``count`` numbers their figure."""
     equation = stage.equation
     assert equation is not None
     where = dict(said("see figure", lesson.language, figure=count))

@@ -10,7 +10,7 @@ import base64
 import json
 import re
 import uuid
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from xml.sax.saxutils import escape
@@ -142,22 +142,13 @@ def files_for(question: Question, platforms: Sequence[str]) -> dict[str, bytes]:
     return made
 
 
-def bank(category: str, files: Iterable[Mapping[str, bytes]]) -> dict[str, bytes]:
+def bank(category: str, files: Sequence[Mapping[str, bytes]]) -> dict[str, bytes]:
     """A bank of the questions of many variants, from the files of each."""
-    moodle: list[str] = []
-    gifts: list[str] = []
-    for made in files:
-        if "moodle.xml" in made:
-            text = made["moodle.xml"].decode()
-            moodle.append(text[text.index(_CUT) : text.rindex("</quiz>")])
-        if "questions.gift" in made:
-            gifts.append(made["questions.gift"].decode())
-    banks: dict[str, bytes] = {}
-    if moodle:
-        banks["moodle.xml"] = moodle_bank(category, moodle)
-    if gifts:
-        banks["questions.gift"] = (f"$CATEGORY: {category}\n\n" + "\n".join(gifts)).encode()
-    return banks
+    texts = {name: [made[name].decode() for made in files if name in made] for name in BANKED}
+    moodle = [text[text.index(_CUT) : text.rindex("</quiz>")] for text in texts["moodle.xml"]]
+    gifts = f"$CATEGORY: {category}\n\n" + "\n".join(texts["questions.gift"])
+    banks = {"moodle.xml": moodle_bank(category, moodle), "questions.gift": gifts.encode()}
+    return {name: whole for name, whole in banks.items() if texts[name]}
 
 
 # -- Moodle ------------------------------------------------------------------------------------------------------------

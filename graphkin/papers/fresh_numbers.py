@@ -15,7 +15,6 @@ import random
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
@@ -115,12 +114,9 @@ def _plain_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
 
 def _fitting_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
     """The numbers of discs, wheels, cams and driver laws."""
-    owners: list[tuple[KeyPath, Tables]] = [(("frame",), source.get("frame", {}))]
-    owners += [(("links", name), link) for name, link in source.get("links", {}).items()]
-    for where, owner in owners:
-        for name, disc in owner.get("discs", {}).items():
-            if disc.get("r"):
-                yield (*where, "discs", name, "r"), "length"
+    for path in _radii_of_discs(source):
+        if value_at(source, path):
+            yield path, "length"
     for name, gear in source.get("gears", {}).items():
         if all(isinstance(z, int | float) for z in gear.get("teeth", ["rack"])):
             yield from ((("gears", name, "teeth", i), "teeth") for i in (0, 1))
@@ -138,6 +134,13 @@ def _fitting_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
                 yield (*path, "law", "to"), "length"
             if driver.get("time"):
                 yield (*path, "time"), "moment"
+
+
+def _radii_of_discs(source: Tables) -> Iterator[KeyPath]:
+    """The radii of all discs, those of the frame first."""
+    owners: list[tuple[KeyPath, Tables]] = [(("frame",), source.get("frame", {}))]
+    owners += [(("links", name), link) for name, link in source.get("links", {}).items()]
+    return ((*where, "discs", name, "r") for where, owner in owners for name in owner.get("discs", {}))
 
 
 def candidate(source: Tables, spread: Spread, seed: int, number: int, attempt: int) -> OwnTables:
@@ -215,8 +218,8 @@ def _fit(source: Tables, made: OwnTables, free: Callable[[KeyPath], bool]) -> No
             for name, gear in made.get("gears", {}).items():
                 gear["teeth"] = list(source["gears"][name]["teeth"])
         if not _radii(scene, made, free):
-            for where in ("frame", "links"):
-                _put_back(source.get(where, {}), made.get(where, {}))
+            for path in _radii_of_discs(source):
+                put_at(made, path, value_at(source, path))
 
 
 def _cam(was: Tables, cam: OwnTables) -> None:
@@ -338,16 +341,6 @@ def _disc(made: Tables, ref: str) -> float:
     return float(made["links"].get(link, made.get("frame", {}))["discs"][name]["r"])
 
 
-def _put_back(was: Any, now: Any) -> None:
-    """Put back the old radii of discs."""
-    if "discs" in now:
-        for name, disc in now["discs"].items():
-            disc["r"] = was["discs"][name]["r"]
-    for name, table in now.items():
-        if isinstance(table, dict) and name in was and "discs" in table:
-            _put_back(was[name], table)
-
-
 # -- what [vary] says --------------------------------------------------------------------------------------------------
 
 
@@ -366,8 +359,7 @@ def _vary(source: Tables) -> Tables:
 
 
 def _path_of_number(source: Tables, key: str) -> KeyPath | None:
-    """The place of a number by its key with dots: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``; None
-    where there is no number."""
+    """The place of a number by its key with dots, ``frame.points.D.x``, ``driver.2.angle``; None without one."""
     path = path_of_key(source, key)
     value = None if path is None else value_at(source, path)
     return None if isinstance(value, bool) or not isinstance(value, int | float) else path
@@ -401,8 +393,7 @@ def _paths(source: Tables, keys: Iterable[str]) -> list[KeyPath]:
 
 
 def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: Mapping[str, float]) -> None:
-    """Draw the numbers with a range, and compute the tied ones; ``step_of`` gives the steps of angles by the last
-    key."""
+    """Draw the numbers with a range, compute the tied ones; ``step_of``: the steps of angles by their last key."""
     table = _vary(source)
     ranges = table.get("ranges", {})
     for path, (low, high) in zip(_paths(source, ranges), ranges.values(), strict=True):

@@ -42,7 +42,7 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.files import Json
 from graphkin.jobs import Progress
-from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
+from graphkin.papers.blocks import Block, Heading, Said, StepItem, said, sentences
 from graphkin.papers.documents import (
     force_stages_of,
     results_blocks,
@@ -62,7 +62,7 @@ from graphkin.solver import Motion, solve
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.quantities import pole
 from graphkin.words import bodies_named, gaps_of, languages, word
-from graphkin.words.symbols import RichText, sign, spaced
+from graphkin.words.symbols import RichText, sign
 
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
 LISTED = ("figures", "steps")
@@ -108,17 +108,14 @@ def handout_page(
             for name, key in SPOKEN.items()
         },
     }
-    keys = said("keys", lesson.language)
     shown = said("positions words" if len(views) > 1 else "position words", lesson.language, count=len(views))
-    hints = zip(keys, shown, said("print hint", lesson.language, paper=paper), strict=True)
-    hint = tuple((each, spaced(word("between sentences", each), (a, b, c))) for (each, a), (_, b), (_, c) in hints)
     body = rendered(
         "handout.html",
         title=scene_title(lesson),
         given=Markup(blocks_html(task_with_source(lesson), first)),
         paper=Markup(blocks_html((Heading(scene_title(lesson), 2), *stages), first)),
         results=Markup(blocks_html(results_blocks(lesson), first)),
-        hint=hint,
+        hint=sentences(said("keys", lesson.language), shown, said("print hint", lesson.language, paper=paper)),
         buttons=BUTTONS,
         say=lambda key: Markup(said_html(said(key, lesson.language))),
         plain=lambda key: _side_by_side(said(key, lesson.language)),
@@ -460,8 +457,7 @@ def motion_data(
 
 
 def _guide(motion: Motion, slide: Pair, size: float, length: float) -> list[Array]:
-    """Both ends of a guide: through the whole mechanism for a guide of the frame, along the link for a guide of a
-    link."""
+    """Both ends of a guide: of the frame through the whole mechanism, of a link along the link."""
     placed = slide.guide
     if slide.b == motion.scene.frame.name:
         ends = (placed.through / length + sense * size * placed.direction for sense in (-1, 1))

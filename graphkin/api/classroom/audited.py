@@ -93,11 +93,9 @@ class Audited(OfScene, Result):
     @property
     def _named(self) -> dict[str, str]:
         """The columns that name the person of a value, with their heads."""
-        known = {
-            "person": any(w.person for w, _ in self.people), "id": any(w.id for w, _ in self.people),
-            "variant": any(w.variant for w, _ in self.people), "at": any(w.at is not None for w, _ in self.people),
-        }  # fmt: skip
-        return {key: _head(key, self.language) for key, there in known.items() if there}
+        keys = ("person", "id", "variant", "at")
+        known = [key for key in keys if any(getattr(who, key) not in ("", None) for who, _ in self.people)]
+        return {key: _head(key, self.language) for key in known}
 
     @property
     def heads(self) -> list[str]:
@@ -110,8 +108,7 @@ class Audited(OfScene, Result):
         """The table as texts, in the language of the call."""
         rows = []
         for who, judged in self.people:
-            own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _cell(who.at)}
-            lead = [own[key] for key in self._named]
+            lead = [_cell(getattr(who, key)) for key in self._named]
             for row in rows_of(self.mechanism, who, judged, self.language):
                 error, gap = row["deviation_pct"], row.get("loop_gap")
                 deviation = f"{round(error, 2) + 0.0:+.2f} %" if isinstance(error, float) else ""
@@ -272,10 +269,7 @@ def audit(
 def _problems(
     scene: Mechanism, people: Sequence[Answers], variants: str | os.PathLike[str] | Mapping[str, SceneLike] | None
 ) -> dict[str, Mechanism]:
-    """The scene of each variant in the answers; "" is the scene itself.
-
-    Raises CallError for answers to an unknown variant.
-    """
+    """The scene of each variant in the answers; "" is the scene itself.  Raises CallError for an unknown variant."""
     named = sorted({who.variant for who in people if who.variant})
     if not named:
         return {"": scene}

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
@@ -159,8 +159,8 @@ def course_design(
     mechanisms = {name: for_paper(source) for name, source in sources.items()}
     course = {name: scheme_of(name, own, asked_symbols(own, find), count) for name, own in mechanisms.items()}
     if students is None:
-        dealt = [(Student(scheme=name), driver_values(scheme.scene, at)) for name, scheme in course.items()]
-        dealt = [(replace(who, place=at if isinstance(at, str) else ""), values) for who, values in dealt]
+        place = at if isinstance(at, str) else ""
+        dealt = [(Student(scheme=name, place=place), driver_values(own.scene, at)) for name, own in course.items()]
     else:
         dealt = [(who, scheme_for(who, course).values(who.place)) for who in dealt_out(students, course)]
     content: dict[str, bytes] = {}
@@ -176,9 +176,9 @@ def course_design(
             shared[scheme.name] = _figures(scheme.scene, spoken, letters)
         asked = scheme.asked
         stands = lesson.sheet.drivers[scheme.scene.drivers[0].key]
-        place = scheme.places.get(who.place) or read_at("", stands, scheme.scene, lesson.report, asked)
-        lines.append((who, place))
-        figures = shared[scheme.name] | {"loops": _drawn(scheme.scene, "loops", spoken, letters, place.driver)}
+        readings = scheme.places.get(who.place) or read_at("", stands, scheme.scene, lesson.report, asked)
+        lines.append((who, readings))
+        figures = shared[scheme.name] | {"loops": _drawn(scheme.scene, "loops", spoken, letters, readings.driver)}
         document = course_report(lesson, who, scheme, stands, data, asked, figures)
         words = "-".join(filter(None, (who.name or who.id, who.scheme, who.place)))
         stem = f"{k + 1:0{max(2, len(str(len(dealt))))}}-{safe_name(words) if words else 'report'}"

@@ -206,9 +206,8 @@ def problem_set(
                 if own and all(path.is_file() for path in own):
                     whole = one_after_another([path.read_bytes() for path in own])
                     write_files(folder / f"{paper}s", {f"all-{paper}s.pdf": whole})
-            names = [[f"{name}-{variant}-{file}" for file in BANKED] for variant in made.answers]
-            here = [{n[-len(f) :]: (folder / n).read_bytes() for n, f in zip(own, BANKED, strict=True)
-                     if (folder / n).is_file()} for own in names]  # fmt: skip
+            single = [{file: folder / f"{name}-{variant}-{file}" for file in BANKED} for variant in made.answers]
+            here = [{file: path.read_bytes() for file, path in own.items() if path.is_file()} for own in single]
             write_files(folder, bank(name, here))
             for path in left:
                 path.unlink(missing_ok=True)
