@@ -450,7 +450,7 @@ class Form(Generic[AnyTable]):
                 if missing and value_at(raw, path) is not None:
                     continue  # it was there under a misspelt name
                 if path not in problems and not (missing and path in gone):  # that it is wrong was told
-                    problems[path] = Problem(path_name(path), *self._sentence(loc, path, dict(item)))
+                    problems[path] = self._problem(loc, path, dict(item))
                 meant = self._meant(loc, raw) if item["type"] == UNKNOWN else None
                 if meant is not None:
                     _read_as(raw, path, meant)
@@ -522,65 +522,58 @@ class Form(Generic[AnyTable]):
         both = [table[loc[-1]], table.get(near[0])]
         return near[0] if near[0] not in table or all(isinstance(t, dict) for t in both) else None
 
-    def _sentence(self, loc: KeyPath, path: KeyPath, item: OwnTables) -> tuple[Wording, Wording]:
-        """The value found at a place and the right form of it, from pydantic's error."""
+    def _problem(self, loc: KeyPath, path: KeyPath, item: OwnTables) -> Problem:
+        """The problem at a place, by pydantic's error: the value found and the right form of it."""
         kind, value, ctx = item["type"], item["input"], item.get("ctx", {})
-        found: Wording = Phrase("found value", value=shown(value))
+
+        def problem(found: Wording, wanted: Wording, **gaps: object) -> Problem:
+            return Problem(path_name(path), found, wanted, value=shown(value), **gaps)
+
         wanted: Wording
         if kind == "missing":
             wanted = self.keys_at(loc[:-1]).get(str(loc[-1]), "")
             if loc == ("links",):
-                wanted = Phrase("a scene has moving links links.1 and so")
+                wanted = "a scene has moving links links.1 and so"
             elif loc[0] == "driver" and loc[-1] == "link":
-                wanted = Phrase("write link 1 for a driven angle or slide")
-            return Phrase("is missing"), wanted
+                wanted = "write link 1 for a driven angle or slide"
+            return problem("is missing", wanted)
         if kind == UNKNOWN:
-            is_table = isinstance(value, dict)
-            return Phrase("unknown table") if is_table else Phrase("unknown key"), self._about_key(loc)
-        if "[key]" in loc:
-            return Phrase("is no name here", value=shown(path[-1])), _name_rule(ctx)
-        if kind == "form":
-            return found, Phrase(item["msg"])
+            return problem("unknown table" if isinstance(value, dict) else "unknown key", self._about_key(loc))
+        if "[key]" in loc or kind == "string_pattern_mismatch":
+            return problem("is no name here", _name_rule(ctx))
+        if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
+            return problem("found value", "a text stands in quotation marks")
+        if kind == "float_type" and isinstance(value, str):
+            return problem("found value", "a number is written without quotation marks")
         if kind in _KINDS:
-            wanted = _KINDS[kind]
-            if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
-                wanted = Phrase("a text stands in quotation marks", value=shown(value))
-            elif kind == "float_type" and isinstance(value, str):
-                wanted = Phrase("a number is written without quotation marks")
-            return found, wanted
+            return problem("found value", _KINDS[kind])
         if kind == "literal_error":
             choices = re.findall(r"'([^']*)'", ctx["expected"])
             names = listed([f'"{c}"' for c in choices] or [str(ctx["expected"])])
-            wanted = Phrase("one of is possible" if len(choices) > 1 else "is possible", names=names)
-            near = did_you_mean(value[:60], choices) if isinstance(value, str) else wanted
-            is_near = near.key == "did you mean"
-            return found, Phrase("list comma of two", first=wanted, second=near) if is_near else wanted
-        if kind == "finite_number":
-            return found, Phrase("a finite number is wanted")
+            possible = Phrase("one of is possible" if len(choices) > 1 else "is possible", names=names)
+            near = did_you_mean(value[:60], choices) if isinstance(value, str) else possible
+            both = Phrase("list comma of two", first=possible, second=near)
+            return problem("found value", both if near.key == "did you mean" else possible)
         if kind == "greater_than_equal" and ctx["ge"] > 0:
-            which = "found a negative" if value < 0 else "found a zero" if value == 0 else "found far too small a"
+            sign = "found a negative" if value < 0 else "found a zero" if value == 0 else "found far too small a"
             last = str(path[-1])
             noun = Phrase(f"noun {'scale' if last.endswith('scale') else _NOUNS.get(last, 'length')}")
-            return Phrase(which, value=shown(value), noun=noun), Phrase("a must be positive", noun=noun)
+            return problem(sign, "a must be positive", noun=noun)
         if kind == "greater_than_equal":
-            return found, Phrase("the least that is possible here", limit=f"{ctx['ge']:g}")
+            return problem("found value", "the least that is possible here", limit=f"{ctx['ge']:g}")
         if kind == "less_than_equal":
-            return found, Phrase("the most that is possible here", limit=f"{ctx['le']:g}")
+            return problem("found value", "the most that is possible here", limit=f"{ctx['le']:g}")
         if kind in ("too_short", "too_long") and loc == ("links",):
-            return Phrase("there is none"), Phrase("a scene has moving links links.1 and so")
+            return problem("there is none", "a scene has moving links links.1 and so")
         if kind in ("too_short", "too_long"):
-            if isinstance(value, list) and value and isinstance(value[0], dict | list):
-                found = Phrase("found of them", count=len(value))
+            several = isinstance(value, list) and value and isinstance(value[0], dict | list)
             within = f"{path[-2]}." if isinstance(path[-1], int) else str(path[-1])
             in_print = str(loc[0]).startswith("printed")
-            other = Phrase("write a number 1.0 for its digits as" if in_print else "a place is x y")
-            return found, _SIZES.get(within, other)
+            other = "write a number 1.0 for its digits as" if in_print else "a place is x y"
+            return problem("found of them" if several else "found value", _SIZES.get(within, other), count=len(value))
         if kind == "string_too_long":
-            limit = ctx["max_length"]
-            return Phrase("is characters long", count=len(value)), Phrase("at most are possible", limit=limit)
-        if kind == "string_pattern_mismatch":
-            return Phrase("is no name here", value=shown(value)), _name_rule(ctx)
-        return found, from_others(str(item["msg"]))
+            return problem("is characters long", "at most are possible", count=len(value), limit=ctx["max_length"])
+        return problem("found value", item["msg"] if kind == "form" else from_others(str(item["msg"])))
 
     def _about_key(self, loc: KeyPath) -> Wording:
         """The known keys that an unknown key may mean."""
@@ -589,10 +582,9 @@ class Form(Generic[AnyTable]):
             return Phrase("this is a design file", name="FILE")
         if key in self.keys_at(()) and len(loc) > 1:
             at_top = key in ("title", "title_zh", "source", "source_zh", "find")
-            own = Phrase("is a table of its own", key=key)
-            return Phrase("belongs at the top of the file before", key=key) if at_top else own
+            return Phrase("belongs at the top of the file before" if at_top else "is a table of its own", key=key)
         if loc[0] == "driver" and key == "slide":
-            return Phrase("a driver has either link a driven angle")
+            return "a driver has either link a driven angle"
         return did_you_mean(key, self.keys_at(loc[:-1]))
 
 
@@ -671,26 +663,26 @@ _NOUNS = {
 }  # fmt: skip
 """What must be positive, where it is no length."""
 _KINDS = {
-    "string_type": Phrase("a text is wanted"),
-    "float_type": Phrase("a number is wanted"),
-    "int_type": Phrase("a whole number is wanted"),
-    "bool_type": Phrase("true or false is wanted"),
-    "list_type": Phrase("a list is wanted"),
-    "dict_type": Phrase("a table is wanted"),
-    "dataclass_type": Phrase("a table is wanted"),
+    "string_type": "a text is wanted",
+    "float_type": "a number is wanted",
+    "int_type": "a whole number is wanted",
+    "bool_type": "true or false is wanted",
+    "list_type": "a list is wanted",
+    "dict_type": "a table is wanted",
+    "dataclass_type": "a table is wanted",
 }
-_SIZES = {
-    "on": Phrase("one guide or two are possible"),
-    "in": Phrase("one guide or two are possible"),
-    "angle_on": Phrase("one number for each guide is wanted"),
-    "from": Phrase("two points of the link are wanted"),
-    "r": Phrase("two lengths are wanted one for each point"),
-    "driver": Phrase("two values of the driver are wanted"),
-    "between": Phrase("two outlines or wheels are wanted 1.k 2.f"),
-    "teeth": Phrase("two are wanted one for each wheel 20"),
-    "angles": Phrase("two angles in degrees are wanted 30 30"),
+_SIZES: Mapping[str, Wording] = {
+    "on": "one guide or two are possible",
+    "in": "one guide or two are possible",
+    "angle_on": "one number for each guide is wanted",
+    "from": "two points of the link are wanted",
+    "r": "two lengths are wanted one for each point",
+    "driver": "two values of the driver are wanted",
+    "between": "two outlines or wheels are wanted 1.k 2.f",
+    "teeth": "two are wanted one for each wheel 20",
+    "angles": "two angles in degrees are wanted 30 30",
     "pairs": Phrase("three of are wanted", wanted=Phrase("crank angle rocker angle")),
-    "pairs.": Phrase("two angles in degrees are wanted 30 60"),
+    "pairs.": "two angles in degrees are wanted 30 60",
     "positions": Phrase("three of are wanted", wanted="{ B = [x, y], C = [x, y] }"),
 }
 """How long the list of a key is, or with a point, one in it."""
@@ -748,16 +740,11 @@ def _written_path(loc: KeyPath) -> KeyPath:
 
 def _name_rule(ctx: Tables) -> Wording:
     """The rule for writing a name, by the pattern that it misses."""
-    pattern = str(ctx.get("pattern", ""))
     if "max_length" in ctx:
         return Phrase("a name has at most letters and digits", limit=ctx["max_length"])
-    if r"\." in pattern:
-        return Phrase("a guide is written link for the link's")
-    if "/" in pattern:
-        return Phrase("a sliding pair is written link or sliding")
-    if "A-Z][" in pattern:
-        return Phrase("a point is named by a capital letter")
-    return Phrase("a link or guide is named by letters")
+    rules = {r"\.": "a guide is written link for the link's", "/": "a sliding pair is written link or sliding",
+             "A-Z][": "a point is named by a capital letter", "": "a link or guide is named by letters"}  # fmt: skip
+    return next(rule for sign, rule in rules.items() if sign in str(ctx.get("pattern", "")))
 
 
 # -- rules from types --------------------------------------------------------------------------------------------------
