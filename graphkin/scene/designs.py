@@ -10,7 +10,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import field, replace
-from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
@@ -152,13 +151,9 @@ DESIGN = Form(Design, "graphkin design")
 DesignLike = Design | str | os.PathLike[str] | Tables
 
 
-def _shelf() -> Traversable:
-    return shelf() / "designs"
-
-
 def designs() -> tuple[str, ...]:
     """Names of the bundled design files, sorted."""
-    return files_named(_shelf())
+    return files_named(shelf() / "designs")
 
 
 def is_design(source: object) -> bool:
@@ -192,7 +187,7 @@ def design_of(source: DesignLike) -> Design:
     if isinstance(source, Design):
         return source
     if isinstance(source, str) and source in designs() and not os.path.isfile(source):
-        raw, name = parsed((_shelf() / f"{source}.toml").read_text(encoding="utf-8")), source
+        raw, name = parsed((shelf() / "designs" / f"{source}.toml").read_text(encoding="utf-8")), source
     elif isinstance(source, str | os.PathLike):
         text = os.fspath(source)
         if "/" not in text and not text.endswith(".toml") and not os.path.isfile(text):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Literal
@@ -436,15 +436,11 @@ class Mechanism:
 
     def law_of(self, name: str) -> LawCam | None:
         """The cam by whose law a link, or a sliding pair, moves; None where there is none."""
-        return next((cam for cam in self.cams if name in (cam.follower, cam.pair)), None)
+        return next((cam for cam in self.cams if name in (cam.follower, cam.motion.pair)), None)
 
     def acting_between(self, links: Collection[str]) -> list[HigherPair]:
         """The acting higher pairs all of whose members are among some links."""
         return [pair for pair in self.acting if {*pair.members} <= {*links}]
-
-    def keeping(self, kept: Callable[[HigherPair], object]) -> Mechanism:
-        """This mechanism without the higher pairs that are not kept."""
-        return replace(self, higher_pairs=tuple(filter(kept, self.higher_pairs)))
 
     @property
     def points(self) -> Mapping[str, tuple[str, ...]]:

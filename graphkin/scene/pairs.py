@@ -372,6 +372,7 @@ def _counted(teeth: float) -> Phrase | str:
 class SlidingFollower:
     """A follower on a guide of the frame: the ``pair``, the ``foot`` of the cam's axis on the line (m), the sense of
     the line, the travel at the foot (m), and the ``offset`` (m), positive where the axis lies to the left of the line.
+    Its point has no name (``tip``), and moves along the line as the lift grows (``side`` 1).
     """
 
     pair: str
@@ -379,6 +380,9 @@ class SlidingFollower:
     along: complex
     travel: float
     offset: float
+    side: ClassVar[int] = 1
+    turns: ClassVar[bool] = False
+    tip: ClassVar[str] = ""
 
 
 @dataclass(frozen=True)
@@ -394,6 +398,8 @@ class SwingingFollower:
     arm: float
     side: int
     back: bool = False
+    turns: ClassVar[bool] = True
+    pair: ClassVar[str] = ""
 
 
 class Course(NamedTuple):
@@ -473,10 +479,7 @@ class LawCam:
         """The cam and its follower."""
         return self.link, self.follower
 
-    @property
-    def members(self) -> tuple[str, ...]:
-        """The links without which it is none: the cam and its follower."""
-        return self.bodies
+    members = bodies
 
     @property
     def lengths(self) -> tuple[float, ...]:
@@ -500,17 +503,7 @@ class LawCam:
     @property
     def turns(self) -> bool:
         """Whether its follower swings, so that the lift is an angle."""
-        return isinstance(self.motion, SwingingFollower)
-
-    @property
-    def pair(self) -> str:
-        """The sliding pair of its follower, "" of a swinging one."""
-        return self.motion.pair if isinstance(self.motion, SlidingFollower) else ""
-
-    @property
-    def side(self) -> int:
-        """The sense in which its follower moves as the lift grows: 1 along its guide, or counter-clockwise."""
-        return self.motion.side if isinstance(self.motion, SwingingFollower) else 1
+        return self.motion.turns
 
     @property
     def links(self) -> tuple[str, ...]:
@@ -521,11 +514,6 @@ class LawCam:
     def base_of_profile(self) -> float:
         """Radius of the base circle of the profile (m)."""
         return self.base - self.roller
-
-    @property
-    def name_of_point(self) -> str:
-        """The point of the follower that the law moves: the roller's centre, the edge; "" where it has no name."""
-        return self.motion.tip if isinstance(self.motion, SwingingFollower) else ""
 
     def leaves(self, lift: float, sense: int) -> tuple[float, float]:
         """The angle of the link's own axis (rad, 0 to a turn) from which the follower leaves its least or greatest lift

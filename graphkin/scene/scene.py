@@ -41,10 +41,11 @@ from graphkin.scene.bodies import (
 from graphkin.scene.drivers import drives, placed_driver, stated_driver
 from graphkin.scene.loads import loading_of
 from graphkin.scene.model import Mechanism, PlacedLink, Question, no_force
+from graphkin.scene.pairs import HigherPair
 from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import SCENE, Guide, Link, SceneTables
 from graphkin.scene.tables import file_table_by_name, path_name, path_of_key, plain, tidy, value_at
-from graphkin.scene.touching import cams_of, discs_of, touching_of
+from graphkin.scene.touching import cams_of, contacts_of, discs_of, gears_of
 from graphkin.words import Phrase, Wording, from_others, listed
 
 # -- files -------------------------------------------------------------------------------------------------------------
@@ -251,16 +252,15 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     check_own_points(reading)
     reading = replace(reading, slides=sliding_pairs(reading))
     reading = replace(reading, slides=(*reading.slides, *pins_in_slots(reading)))
-    discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
-    touching = touching_of(reading, discs) if reading.touching else ()
+    discs = discs_of(reading)
+    touching: tuple[HigherPair, ...] = (*contacts_of(reading, discs), *gears_of(reading))
     for table in ("sketch", "drawn"):
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
     check_references(reading)
     check_rolling(reading)
-    find = asked(reading) if file.find else ()
-    stated = stated_values(reading) if file.printed or file.printed_rows or file.printed_table else ()
+    find, stated = asked(reading), stated_values(reading)
     positions = positions_named(file.positions, reading) if file.positions else None
-    loops = loops_named(reading) if file.loops else {}
+    loops = loops_named(reading)
     check_held(reading)
     driven = drives(reading)
     position = places.stated_position(reading, driven.values())
@@ -274,8 +274,8 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         places.check_all_found(position)
         places.check_distances(position)
     reading = replace(reading, places={name: body.local for name, body in position.bodies.items()})
-    lifting = cams_of(reading, position.bodies[reading.frame.name].guides, position.drawn) if file.cams else ()
-    if touching and not problems:
+    lifting = cams_of(reading, position.bodies[reading.frame.name].guides, position.drawn)
+    if not problems:
         places.check_held_distances(touching, position)
     values = [position.value_of(driver) for driver in driven.values()]
     tables = () if problems else ((reading.frame.name, None), *reading.links.items())
@@ -283,7 +283,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     loading = loading_of(reading)
     wish = file.sheet.background
     under = background_of(wish, {**position.drawn, **reading.places[reading.frame.name]}, reading) if wish else None
-    scans = scans_of(reading) if file.scans else {}
+    scans = scans_of(reading)
     drivers = [placed_driver(*at, value, reading) for at, value in zip(driven.items(), values, strict=True)]
     if positions is not None and drivers and drivers[0].turns and drivers[0].position:
         drivers[0] = at_its_position(drivers[0], positions)

@@ -97,11 +97,6 @@ class Kind:
     acute: bool = False
     instead: str = ""
 
-    @property
-    def sign(self) -> str:
-        """The sign between the names of two links."""
-        return "-" if self.form == "links" else "/"
-
 
 KINDS = {
     kind.name: kind
@@ -350,7 +345,7 @@ class Symbol:
     def __str__(self) -> str:
         if self.of is None or self.link:
             name = f"{self.kind}_{self.link or self.name}"
-            name += f"{self.entry.sign}{self.other}" if self.other else ""
+            name += ("-" if self.entry.form == "links" else "/") + self.other if self.other else ""
             name += (f"@{self.of}" if self.of else "") + ("+" if self.plus else "")
         elif self.kind == "place":
             name = str(self.of)

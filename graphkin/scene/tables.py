@@ -285,11 +285,6 @@ class Units(FileTable):
         """One mass unit in kg."""
         return MASSES[self.mass]
 
-    @property
-    def inertias(self) -> float:
-        """One unit of inertia in kg m2."""
-        return self.of("inertia").si
-
     def of(self, measure: Measure | str, radians: bool = False) -> Unit:
         """The unit of a measure, or of one by its name: people read angles in degrees, programs in radians."""
         names = self.length, self.speed, self.force, self.mass

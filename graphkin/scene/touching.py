@@ -30,11 +30,6 @@ ROUNDING = 1e-12
 """Of the way along the guide: a smaller offset is rounding alone."""
 
 
-def touching_of(reading: Reading, discs: Discs) -> tuple[PlacedContact | PlacedGear, ...]:
-    """The bodies of a file that touch; their problems are noted."""
-    return *contacts_of(reading, discs), *gears_of(reading)
-
-
 # -- contacts ----------------------------------------------------------------------------------------------------------
 
 Discs = Mapping[tuple[str, str], Disc]
@@ -165,14 +160,15 @@ def _contact(name: str, contact: Contact, side: Side, other_side: Side, reading:
 
 def gears_of(reading: Reading) -> tuple[PlacedGear, ...]:
     """The wheels with teeth of a file, with their carriers; their problems are noted."""
-    gears = (_gear(f"gears.{name}", name, gear, reading) for name, gear in reading.file.gears.items())
+    gears = (_gear(name, gear, reading) for name, gear in reading.file.gears.items())
     return tuple(placed for placed in gears if placed is not None)
 
 
-def _gear(where: str, name: str, gear: Gear, reading: Reading) -> PlacedGear | None:
+def _gear(name: str, gear: Gear, reading: Reading) -> PlacedGear | None:
     first, _, part = gear.between[0].partition(".")
     second, _, guide = gear.between[1].partition(".")
-    (z1, z2), between, teeth, carrier_key = gear.teeth, f"{where}.between", f"{where}.teeth", f"{where}.carrier"
+    where, (z1, z2) = f"gears.{name}", gear.teeth
+    between, teeth, carrier_key = f"{where}.between", f"{where}.teeth", f"{where}.carrier"
     rack, before, say = isinstance(z2, str), len(reading.problems), reading.say
     unknown = reading.wrong(*(reading.no_link(between, link) for link in (first, second)))
     if isinstance(z1, str):
@@ -285,7 +281,7 @@ def _cam(
                         value=f"{angle:g}")
     if not point or swings is None or len(reading.problems) > before:
         return None
-    axis = _fixed(reading)[point]
+    axis = reading.places[reading.frame.name][point]
     motion: SlidingFollower | SwingingFollower | None
     if swings:
         motion = _swinging(where, cam, reading, axis, drawn)
@@ -295,11 +291,6 @@ def _cam(
         return None
     allowed = (si.allow.rise, si.allow.fall) if si.allow else (None, None)
     return LawCam(name, cam.follower, point, axis, law, cam.sense, base, roller, cam.flat, motion, allowed)
-
-
-def _fixed(reading: Reading) -> Mapping[str, complex]:
-    """The points of the frame (m)."""
-    return reading.places[reading.frame.name]
 
 
 def _axis_of_cam(where: str, name: str, reading: Reading) -> str:
@@ -312,7 +303,7 @@ def _axis_of_cam(where: str, name: str, reading: Reading) -> str:
     link = reading.links.get(name)
     if link is None or reading.lost_under("links", name):
         return ""
-    if link.points and link.points[0] in _fixed(reading):
+    if link.points and link.points[0] in reading.places[reading.frame.name]:
         return link.points[0]
     if not reading.lost_under("frame"):
         no_point = Phrase("link has no point", name=name)
@@ -335,7 +326,7 @@ def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str
     link = reading.links.get(follower)
     if link is None or reading.lost_under("links", follower) or reading.lost_under("frame"):
         return None
-    pivots = [p for p in link.points if p in _fixed(reading)]
+    pivots = [p for p in link.points if p in reading.places[reading.frame.name]]
     if any(pair.a == follower and pair.b == frame for pair in reading.slides):
         return None  # what is wrong with its guide is told already
     if len(pivots) != 1 or link.on is not None:
@@ -371,7 +362,7 @@ def _swinging(
 ) -> SwingingFollower | None:
     """A follower that swings about a point of the frame."""
     link = reading.links[cam.follower]
-    (first, second), places = link.points, _fixed(reading)
+    (first, second), places = link.points, reading.places[reading.frame.name]
     pivot, tip = (first, second) if first in places else (second, first)
     centre = places[pivot]
     if centre == axis:

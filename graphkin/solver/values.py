@@ -528,7 +528,7 @@ def _flywheel(motion: Motion) -> dict[str, Json]:
         found = flywheel_of(range_of(structure_of(motion.structure)))
     except Unsolvable:
         return {}
-    return {"excess_W": found.excess / units.newtons, "J_F": found.inertia / units.inertias}
+    return {"excess_W": found.excess / units.newtons, "J_F": found.inertia / units.of("inertia").si}
 
 
 def _plain(values: Array, present: Array | None = None) -> list[Any]:

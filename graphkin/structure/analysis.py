@@ -638,7 +638,7 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
     scene, hinges = structure.scene, structure.hinges
     moving = [link for name, link in structure.links.items() if name in scene.by_name and name != scene.frame.name]
     unused = [p for p in scene.frame.points if p not in hinges]
-    held = {*hinges, *(p.name_of_point for p in structure.lifting), *(s.pin for s in structure.slides if s.higher)}
+    held = {*hinges, *(p.motion.tip for p in structure.lifting), *(s.pin for s in structure.slides if s.higher)}
     free = {link.name: [p for p in link.bar if p not in held] for link in moving}
     lonely = [p for points in free.values() for p in points]
     driven = {name for driver in scene.drivers for name in driver.links}

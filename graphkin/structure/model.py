@@ -538,7 +538,7 @@ def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
     nothing is asked or stated."""
     lost = set(gone)
     return replace(
-        scene.keeping(lambda pair: lost.isdisjoint((*pair.members, pair.block))),
+        scene, higher_pairs=tuple(p for p in scene.higher_pairs if lost.isdisjoint((*p.members, p.block))),
         links=tuple(link for link in scene.links if link.name not in lost),
         slides=tuple(s for s in scene.slides if lost.isdisjoint((*s.links, s.of))),
         question=replace(scene.question, find=(), stated=()),

@@ -146,7 +146,7 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
         tangent = course.tangent
         if abs(tangent) < SHARP * cam.base:
             raise Unsolvable("dead point", Problem(f"cams.{cam.link}", "the pitch curve has a cusp at this"))
-        point = cam.name_of_point or next(iter(follower.points), "")
+        point = cam.motion.tip or next(iter(follower.points), "")
         if not point:
             point = next(names)
             links[cam.follower] = replace(follower, points={point: 0j})

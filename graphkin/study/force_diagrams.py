@@ -238,7 +238,7 @@ MORE, LESS = "#dcdcdc", "#b8b8b8"
 def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> chart.ChartPage:
     """The page of a flywheel."""
     scene, axis = reach.scene, charts.DriverAxis(reach)
-    per, moment, inertia = scene.units.newtons, scene.units.of("moment").written, scene.units.of("inertia").written
+    per, moment, inertia = scene.units.newtons, scene.units.of("moment").written, scene.units.of("inertia")
     offsets, moments = whole_turn(axis), Symbol("M", link=study.link)
     curve = axis.curve(moments, offsets, needed_moment(reach, offsets))
     (x, needed), driving = curve.T, study.driving / per
@@ -251,7 +251,7 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
         say(Phrase("driving moment is", moment=f"{charts.number(driving)} {moment}"), language),
         say(Phrase("excess work is", work=f"{charts.number(study.excess / per)} {moment}"), language),
         sign("δ") + f" = {charts.number(study.delta)}",
-        sign("J", "F") + f" = {charts.number(study.inertia / scene.units.inertias)} {inertia}",
+        sign("J", "F") + f" = {charts.number(study.inertia / inertia.si)} {inertia.written}",
     ]
 
     def paint(figure: chart.Figure) -> None:

@@ -38,7 +38,7 @@ def _flywheel(turn: TurnStudy) -> dict[str, Json]:
             "slowest": _driver(turn.scene, driver_value(turn.reach, found.slowest)),
             "fastest": _driver(turn.scene, driver_value(turn.reach, found.fastest)),
             "excess_W": found.excess / units.newtons,
-            "J_F": found.inertia / units.inertias,
+            "J_F": found.inertia / units.of("inertia").si,
         }
     }
 

@@ -203,7 +203,7 @@ def held_by_pairs(sheet: Sheet) -> Sheet:
         slides.append(pin_in_guide(links, touch.name, second, first, guide, "'"))
         poses[slides[-1].key] = Pose(touch.at, along)
     other = replace(
-        scene.keeping(lambda _: False), frame=links[scene.frame.name], slides=tuple(slides), slots=scene.whole.slots,
+        scene, higher_pairs=(), frame=links[scene.frame.name], slides=tuple(slides), slots=scene.whole.slots,
         links=tuple(links[link.name] for link in scene.whole.links),
     )
     return replace(sheet, structure=analyse(other), poses=poses, points=points)

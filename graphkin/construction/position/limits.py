@@ -204,7 +204,7 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
         if cam is None or driver.key != cam.link or not driver.turns_about(scene.frame.name):
             said = Phrase("is drawn of followers of the driven cam"), Phrase("ask for s_ theta_ or d_ at single")
             raise Unsolvable("no whole turn", Problem(str(symbol), *said))
-        ends, side = [], cam.side
+        ends, side = [], cam.motion.side
         for lift in (cam.law.least, cam.law.greatest)[::side]:
             value, rest = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
             poses = poses_at(PlacedElements(structure, structure.elements), {**values, driver.key: value})
