@@ -12,7 +12,7 @@ import secrets
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,12 +43,7 @@ class Address:
     """The address of the page: its port, and its secret."""
 
     port: int
-    secret: str
-
-    @classmethod
-    def new(cls, port: int) -> Address:
-        """An address with a secret of its own."""
-        return cls(port, secrets.token_urlsafe(24))
+    secret: str = field(default_factory=lambda: secrets.token_urlsafe(24))
 
     @property
     def url(self) -> str:
@@ -66,11 +61,6 @@ def needs_live() -> None:
     missing = [name for name in ("starlette", "uvicorn", "websockets") if not have(name)]
     if missing:
         raise CallError.of("open", "needs", 'pip install "graphkin[live]"', missing=listed(missing))
-
-
-@cache
-def _file(name: str) -> bytes:
-    return (_FILES[name][0] / name).read_bytes()
 
 
 def _policy(nonce: str, address: Address) -> str:
@@ -132,7 +122,8 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
         name = request.path_params["name"]
         if name not in _FILES:
             return headed(PlainTextResponse(say(Phrase("there is no such file"), LANGUAGES[0]), 404))
-        return headed(Response(_file(name), media_type=_FILES[name][1]))
+        folder, kind = _FILES[name]
+        return headed(Response((folder / name).read_bytes(), media_type=kind))
 
     async def talk(socket: WebSocket) -> None:
         if refused(socket) or socket.headers.get("origin") not in origins:
@@ -201,7 +192,7 @@ def serve(
         listening.close()
         raise CallError.of("port", "cannot be used", "give another one or none", port=port,
                            error=from_others(error)) from None
-    address = Address.new(listening.getsockname()[1])
+    address = Address(listening.getsockname()[1])
     gc.set_threshold(10_000, 10, 10)  # a command that ends at once looks for garbage next to never; this one stays
     try:
         asyncio.run(_run(application(shelf, address, language), listening, lambda: ready(address) if ready else None))

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -139,30 +139,17 @@ def show_unused(heads: Sequence[str]) -> None:
 
 
 @contextmanager
-def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], None] | None]:
-    """The progress of a run that keeps its finished work in a folder; after an interruption it is said how to
-    continue."""
-    with short_bar(shown) as count:
-        try:
-            yield count
-        except KeyboardInterrupt:
-            complain(Phrase("interrupted what is done is kept in the", target=target))
-            raise
+def progress_bar(shown: bool, target: Path | None = None) -> Iterator[Callable[[int, int], None] | None]:
+    """A progress bar on stderr, if that is a terminal and the work takes longer than a second.  Of a run that keeps its
+    finished work in the folder ``target`` it is said after an interruption how to continue."""
+    bar: Any = None
+    if shown and sys.stderr.isatty():
+        from rich.console import Console
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
-
-@contextmanager
-def short_bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
-    """A progress bar on stderr, if that is a terminal and the work takes longer than a second."""
-    if not shown or not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    columns = BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
-    bar = Progress(*columns, console=Console(stderr=True), transient=True)
-    task = bar.add_task("", total=None)
-    started = time.monotonic()
+        columns = BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
+        bar = Progress(*columns, console=Console(stderr=True), transient=True)
+        task, started = bar.add_task("", total=None), time.monotonic()
 
     def count(done: int, total: int) -> None:
         if time.monotonic() - started > 1.0 and not bar.live.is_started:
@@ -170,6 +157,11 @@ def short_bar(shown: bool) -> Iterator[Callable[[int, int], None] | None]:
         bar.update(task, completed=done, total=total)
 
     try:
-        yield count
+        yield count if bar else None
+    except KeyboardInterrupt:
+        if target is not None:
+            complain(Phrase("interrupted what is done is kept in the", target=target))
+        raise
     finally:
-        bar.stop()
+        if bar:
+            bar.stop()

@@ -25,7 +25,6 @@ from graphkin.cli.output import (
     print_paths,
     print_table,
     progress_bar,
-    short_bar,
     show,
     show_unused,
 )
@@ -69,30 +68,22 @@ def _tell_check(checked: Checked, language: str, given: Given) -> None:
     if given.json:
         print_json(checked.data)
     elif not given.quiet:
-        _print_readings(checked, language)
+        from graphkin.api.arguments import passed_words
+        from graphkin.api.report_text import contact_lines, lever_lines, plain_said, reading_words, verdict
+
+        marks = {True: "ok", False: "off", None: "?"}
+        heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact", "unit")]
+        print_table([*heads, ""], [[*cells, marks[ok]] for *cells, ok in reading_words(checked)], right=(1, 2, 3))
+        for line in (*lever_lines(checked, language), *contact_lines(checked, language)):
+            show(line)
+        for note in (*checked.sheet.notes, *filter(None, (checked.advice,))):
+            show(plain_said(note, language))
+        for said in passed_words(checked.mechanism, checked.passed):
+            show(say(said, language))
+        show(verdict(checked, language))
     if not checked.ok:
         wrong = any(row.ok is False for row in checked.report.rows)
         raise typer.Exit(1 if wrong and checked.complete else 3)
-
-
-def _print_readings(checked: Checked, language: str) -> None:
-    from graphkin.api.arguments import passed_words
-    from graphkin.api.report_text import contact_lines, lever_lines, plain_said, reading_words, verdict
-    rows = [
-        [symbol, length, measured, exact, unit, {True: "ok", False: "off", None: "?"}[ok]]
-        for symbol, length, measured, exact, unit, ok in reading_words(checked)
-    ]
-    heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact", "unit")]
-    print_table([*heads, ""], rows, right=(1, 2, 3))
-    for line in (*lever_lines(checked, language), *contact_lines(checked, language)):
-        show(line)
-    for note in checked.sheet.notes:
-        show(plain_said(note, language))
-    if checked.advice:
-        show(plain_said(checked.advice, language))
-    for said in passed_words(checked.mechanism, checked.passed):
-        show(say(said, language))
-    show(verdict(checked, language))
 
 
 @command(
@@ -375,7 +366,7 @@ def handout(given: Given) -> None:
 
 def _papers(given: Given, function: Callable[..., Handout | CourseDesigns], **others: Any) -> None:
     """Write the papers that a public function makes; name the files, and deviations from the request."""
-    with short_bar(given.speaks) as progress:
+    with progress_bar(given.speaks) as progress:
         made = given.call(function, progress=progress, **others)
         paths = made.write(given.out)
     for note in made.notes:

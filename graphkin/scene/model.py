@@ -438,10 +438,6 @@ class Mechanism:
         """The cam by whose law a link, or a sliding pair, moves; None where there is none."""
         return next((cam for cam in self.cams if name in (cam.follower, cam.motion.pair)), None)
 
-    def acting_between(self, links: Collection[str]) -> list[HigherPair]:
-        """The acting higher pairs all of whose members are among some links."""
-        return [pair for pair in self.acting if {*pair.members} <= {*links}]
-
     @property
     def points(self) -> Mapping[str, tuple[str, ...]]:
         """The names of the points of each link, the frame's first."""
@@ -631,7 +627,7 @@ def joints(mechanism: Mechanism) -> tuple[ForceJoint, ...]:
     pairs += [ForceJoint("sliding", *s.bodies[::-1], s.pin, s.key, not s.of)
               for s in mechanism.slides if {*s.bodies} <= here]
     pairs += [ForceJoint("touching", *pair.bodies, "" if pair.by_law else pair.name, pair=pair)
-              for pair in mechanism.acting_between(here)]
+              for pair in mechanism.acting if {*pair.members} <= here]
     shared = Counter(frozenset((joint.first, joint.second)) for joint in pairs)
     several = (shared[frozenset((joint.first, joint.second))] > 1 and joint.point != "" for joint in pairs)
     return tuple(replace(joint, several=more) for joint, more in zip(pairs, several, strict=True))

@@ -463,6 +463,8 @@ _TWO_WAYS = re.compile(
     _CELL_PART.format("right|east|E|→|右|东", "left|west|W|←|左|西") + r"\s*(?:[,;，；]|and|和)?\s*"
     + _CELL_PART.format("up|north|N|↑|上|北", "down|south|S|↓|下|南") + "(?![A-Za-z])"
 )  # fmt: skip
+# no digit that belongs to a unit (s2, s-1, 秒²) is a number
+_BARE_NUMBER = re.compile(rf"(?<![A-Za-z0-9./^])(?<!\d,)(?<![A-Za-z秒]-)(?!(?<=秒)-?2(?![\d.,])){NUMBER}")
 _COMPLEX = re.compile(rf"({NUMBER})\s*([+-])\s*({NUMBER})\s*[*·]?\s*[ij]\b")
 
 
@@ -504,8 +506,8 @@ def read_cell(
     own, rest = way_in(plain, symbol)
     rest = rest.rpartition("=")[2]
     way = own if own.says else way or Way()
-    numbers = [m[0].rstrip(".") if not m[0].endswith(".") else m[0][:-1] for m in re.finditer(_bare_number(), rest)]
-    left = re.sub(_bare_number(), " ", rest)
+    numbers = [match[0].removesuffix(".") for match in _BARE_NUMBER.finditer(rest)]
+    left = _BARE_NUMBER.sub(" ", rest)
     left = re.sub(r"[;:,()\[\]<>⟨⟩|、。\s]+", " ", _ASIDE.sub(" ", left))
     left = " ".join(dict.fromkeys(left.split()))  # both components may bear the unit
     if not symbol.is_vector:
@@ -540,11 +542,6 @@ def _two_components(match: re.Match[str]) -> str:
     """934.6 mm/s right, 784.2 mm/s down: the two as signed components."""
     x, unit, right, _, y, _, up, _ = match.groups()
     return f"{x if right else f'-{x}'}; {y if up else f'-{y}'} {unit}"
-
-
-def _bare_number() -> str:
-    # no digit that belongs to a unit (s2, s-1, 秒²) is a number
-    return rf"(?<![A-Za-z0-9./^])(?<!\d,)(?<![A-Za-z秒]-)(?!(?<=秒)-?2(?![\d.,])){NUMBER}"
 
 
 def _joined(text: str, symbol: Symbol) -> str:

@@ -110,7 +110,7 @@ def _placed(scene: Mechanism) -> Structure:
             if s.of:
                 links[s.a] = PlacedLink(s.a, {s.pin: 0j}, (s.pin,), OWN_AXIS)
             slides.append(s)
-    slotted, touching = sum(s.higher for s in slides), scene.acting_between(links)
+    slotted, touching = sum(s.higher for s in slides), [p for p in scene.acting if links.keys() >= {*p.members}]
     for pair in touching:
         if (instead := replacing_link(pair, links)) is not None:
             link, slide = instead
