@@ -133,7 +133,7 @@ def given_teeth(scene: Mechanism, language: str) -> list[RichText]:
     marked."""
     found: dict[str, RichText] = {}
     for gear in scene.gears:
-        for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
+        for wheel, teeth in zip(gear.bodies, gear.teeth, strict=True):
             if teeth is None:
                 continue
             said = sign("z", wheel) + f" = {number(abs(teeth))}"

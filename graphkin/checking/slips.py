@@ -350,7 +350,7 @@ def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]
 def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
     """The moving links that share a turning pair with a link, or carry it as a wheel."""
     points = next((k.points for k in scene.links if k.name == link), {})
-    carriers = {g.carrier for g in scene.gears if link in g.wheels} - {scene.frame.name}
+    carriers = {g.carrier for g in scene.gears if link in g.bodies} - {scene.frame.name}
     return tuple(k.name for k in scene.links if k.name != link and (k.name in carriers or set(k.points) & set(points)))
 
 
@@ -599,10 +599,10 @@ def _gear_slips(motion: Motion) -> Iterator[Alteration]:
             outside = replace(gear, teeth=(one, -two))
             yield slip("slip teeth exchanged", gear, 0.08, {gear: turned})
             yield slip("slip teeth sense", gear, 0.1, {gear: outside})
-        if scene.frame.name not in (gear.carrier, *gear.wheels):
+        if scene.frame.name not in (gear.carrier, *gear.bodies):
             yield slip("slip carrier", gear, 0.1, {gear: replace(gear, carrier=scene.frame.name)})
         if two is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
-            swapped = {(gear.wheels[0], abs(one)): abs(two), (gear.wheels[1], abs(two)): abs(one)}
+            swapped = {(gear.bodies[0], abs(one)): abs(two), (gear.bodies[1], abs(two)): abs(one)}
             yield slip("slip teeth exchanged", gear, 0.08, {g: _with(g, swapped) for g in scene.gears})
 
 
@@ -623,7 +623,7 @@ def _standing_here(motion: Motion) -> Mechanism:
     places = (float(value) for value in motion.values[0])
     drivers = tuple(replace(d, value=value) for d, value in zip(scene.drivers, places, strict=True))
     angles = {name: float(np.angle(motion.poses[name].u[0])) for name in scene.by_name if name in motion.poses}
-    starts = {**scene.starts, **{wheel: angles[wheel] for g in scene.gears for wheel in g.wheels if wheel in angles}}
+    starts = {**scene.starts, **{wheel: angles[wheel] for g in scene.gears for wheel in g.bodies if wheel in angles}}
     return replace(scene, drivers=drivers, starts=starts)
 
 
@@ -631,6 +631,6 @@ def _with(gear: PlacedGear, numbers: Mapping[tuple[str, float], float]) -> Place
     """A mesh with other numbers of teeth, given by link and old number; a rack has none."""
     one, two = (
         z if z is None else math.copysign(numbers.get((link, abs(z)), abs(z)), z)
-        for link, z in zip(gear.wheels, gear.teeth, strict=True)
+        for link, z in zip(gear.bodies, gear.teeth, strict=True)
     )
     return replace(gear, teeth=(one or gear.teeth[0], two))

@@ -99,20 +99,20 @@ class Touching:
     def _mesh(self, pair: PlacedGear) -> Touch:
         """The pitch point of two wheels, which parts the line of their axes (mm) as z1 : z2, internal teeth negative;
         of a rack the foot of the wheel's axis on its pitch line."""
-        axes = zip(pair.wheels, pair.axes, strict=True)
+        axes = zip(pair.bodies, pair.axes, strict=True)
         centres = {wheel: (letter, self.place(pair.carrier, letter)) for wheel, letter in axes if letter}
-        wheel, other = pair.wheels
+        wheel, other = pair.bodies
         axis, teeth = centres[wheel][1], pair.teeth[1]
         if teeth is None:
             rack, pose = self.scene.by_name[other].guides[pair.guide], self.poses[other]
             along, start = pose.axis * rack.direction, pose.place(rack.through * self.mm)
             at = start + along * dot(axis - start, along)
-            return Touch(pair.name, pair.wheels, at, 1j * along, pair.means, centres)
+            return Touch(pair.name, pair.bodies, at, 1j * along, pair.means, centres)
         line = centres[other][1] - axis
         held = self.scene.by_name[pair.carrier].points
         normal = self.poses[pair.carrier].axis * (held[pair.axes[1]] - held[pair.axes[0]])
         share = pair.teeth[0] / (pair.teeth[0] + teeth)
-        return Touch(pair.name, pair.wheels, axis + line * share, normal / abs(normal), pair.means, centres)
+        return Touch(pair.name, pair.bodies, axis + line * share, normal / abs(normal), pair.means, centres)
 
     def each(self) -> Iterator[tuple[HigherPair, Touch]]:
         """The higher pairs with all members on paper."""
@@ -171,7 +171,7 @@ class Touching:
     def pitch_circles(self) -> Iterator[tuple[str, complex, float]]:
         """Wheels with the centre and the radius (mm, negative for internal teeth) of each pitch circle."""
         for gear, touch in self.gears():
-            for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
+            for wheel, teeth in zip(gear.bodies, gear.teeth, strict=True):
                 if teeth is not None:
                     _, centre = touch.centres[wheel]
                     yield wheel, centre, math.copysign(abs(touch.at - centre), teeth)
@@ -180,7 +180,7 @@ class Touching:
         """Racks with the pitch point, and the direction from the wheel to the rack's body."""
         for gear, touch in self.gears():
             if gear.is_rack:
-                yield gear.wheels[1], touch.at, unit(touch.at - touch.centres[gear.wheels[0]][1])
+                yield gear.bodies[1], touch.at, unit(touch.at - touch.centres[gear.bodies[0]][1])
 
     def outermost(self, of: Collection[str] | None = None) -> list[complex]:
         """The four outermost places of each round outline and each pitch circle, and the profiles of cams, ``of`` some

@@ -159,12 +159,12 @@ def _line(
     spots = []
     for mesh in members:
         first, second = mesh.axes
-        for axis, wheel in zip(mesh.axes, mesh.wheels, strict=True):
+        for axis, wheel in zip(mesh.axes, mesh.bodies, strict=True):
             if axis:
                 at.setdefault(axis, {}).update(dict.fromkeys((wheel, mesh.carrier)))
         part, rest = mesh.teeth
         reach = part if rest is None else (heights[second] - heights[first]) * (part / (part + rest))
-        spots.append(Spot(mesh.name, heights[first] + reach, mesh.wheels, True))
+        spots.append(Spot(mesh.name, heights[first] + reach, mesh.bodies, True))
     axes = [Spot(p, heights[p], tuple(names), False) for p, names in at.items()]
     fixed = [s for s in (*axes, *spots) if ground in s.links]
     start = (*fixed, *(s for s in axes if s.name in links[ground].points), axes[0])[0]

@@ -262,14 +262,14 @@ def _teeth(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
     numbers = {  # those that somebody has ranged or kept hold for the whole wheel
         (link, abs(int(z or 0))): abs(int(made["gears"][gear.name]["teeth"][i]))
         for gear in scene.gears if not gear.is_rack
-        for i, (link, z) in enumerate(zip(gear.wheels, gear.teeth, strict=True))
+        for i, (link, z) in enumerate(zip(gear.bodies, gear.teeth, strict=True))
         if not free(("gears", gear.name, "teeth", i))
     }  # fmt: skip
     for gear in scene.gears:
         if gear.is_rack:
             continue
         old = [int(z or 0) for z in gear.teeth]
-        wheels = [(link, abs(z)) for link, z in zip(gear.wheels, old, strict=True)]  # one has one number of teeth
+        wheels = [(link, abs(z)) for link, z in zip(gear.bodies, old, strict=True)]  # one has one number of teeth
         drawn = [int(z) for z in made["gears"][gear.name]["teeth"]]
         teeth = [int(math.copysign(numbers.get(w, abs(z)), z)) for w, z in zip(wheels, drawn, strict=True)]
         here = _axle_key(made, gear.carrier, gear.axes)

@@ -276,8 +276,8 @@ class PlacedContact:
 
 @dataclass(frozen=True)
 class PlacedGear:
-    """Two wheels with teeth: pitch circles that roll on each other, their axes held by ``carrier``; or two outlines
-    that roll on each other without teeth.
+    """Two wheels with teeth, or a wheel and a rack (``bodies``): pitch circles that roll on each other, their axes held
+    by ``carrier``; or two outlines that roll on each other without teeth.
 
     ``teeth`` are numbers of teeth with signs (negative: internal), None for a rack, or the radii of outlines (m): in
     these parts the point of contact divides the line from the first axis to the second.  ``axes`` are the points of the
@@ -286,7 +286,7 @@ class PlacedGear:
     """
 
     name: str
-    wheels: tuple[str, str]
+    bodies: tuple[str, str]
     teeth: tuple[float, float | None]
     carrier: str
     axes: tuple[str, str]
@@ -308,14 +308,9 @@ class PlacedGear:
         return self.teeth[1] is None
 
     @property
-    def bodies(self) -> tuple[str, str]:
-        """The two wheels, or the wheel and the rack."""
-        return self.wheels
-
-    @property
     def members(self) -> tuple[str, ...]:
         """The links without which it is none, the wheels first."""
-        return tuple(dict.fromkeys((*self.wheels, self.carrier)))
+        return tuple(dict.fromkeys((*self.bodies, self.carrier)))
 
     def mesh(self, slidings: Sequence[Pair], points: Points, guides: Guides) -> PlacedGear:
         """The mesh of wheels; of a rack with the signed distance (m) of its line from the wheel's axis as the first of
@@ -340,7 +335,7 @@ class PlacedGear:
             # in the axes of the guide, but for the travel along it
             return z * pair.turn if link == pair.a else (z - rail.through) / rail.direction
 
-        rack, line = self.wheels[1], guides[self.wheels[1]][self.guide]
+        rack, line = self.bodies[1], guides[self.bodies[1]][self.guide]
         axis = seen(self.carrier, points[self.carrier][self.axes[0]])
         at = seen(rack, line.through)
         along = seen(rack, line.through + line.direction) - at
@@ -355,7 +350,7 @@ class PlacedGear:
     def gaps(self) -> dict[str, object]:
         """The names in its sentences, and its numbers of teeth."""
         first, second = (None if teeth is None else _counted(teeth) for teeth in self.teeth)
-        return {"gear": self.name, "first": self.wheels[0], "second": self.wheels[1], "carrier": self.carrier,
+        return {"gear": self.name, "first": self.bodies[0], "second": self.bodies[1], "carrier": self.carrier,
                 "teeth_first": first, "teeth_second": second}  # fmt: skip
 
 

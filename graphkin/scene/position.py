@@ -570,7 +570,7 @@ def check_held_distances(touching: Iterable[HigherPair], position: StatedPositio
         height, tilt, far = g.rack_place(reading.slides, points, guides)
         if abs(tilt) > GIVEN_TWICE:
             reading.say(where, "the pitch line is not parallel to the", "name a guide of link along which it",
-                        slide=g.slide, wheels=g.wheels[1])
+                        slide=g.slide, wheels=g.bodies[1])
         elif abs(height) <= GIVEN_TWICE * max(far, 1e-300):
             reading.say(where, "the wheel's axis lies on the pitch line", "the distance of the two is the radius")
 

@@ -87,7 +87,7 @@ def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, f
     teeth (m; None for a rack)."""
     axis = motion.position(gear.axes[0], gear.carrier)
     if gear.is_rack:
-        rack = motion.link(gear.wheels[1])
+        rack = motion.link(gear.bodies[1])
         line = motion.poses[rack.name].fixed(rack.guides[gear.guide].through, rack.guides[gear.guide].direction)
         foot = line.z + line.u * ((axis - line.z) * np.conj(line.u)).real
         return np.asarray(foot), (float(np.abs(foot - axis).flat[0]), None)

@@ -40,8 +40,8 @@ def relations_of(scene: Mechanism, meshes: Iterable[PlacedGear]) -> tuple[Rollin
     for mesh in meshes:
         part, other_part = Fraction(mesh.teeth[0]), Fraction(mesh.teeth[1] or 0)
         # the block on a face turns as the face does; the bar between two centres has an angle of its own
-        carrier = ("angle", mesh.wheels[1] if mesh.slide == mesh.carrier else mesh.carrier)
-        wheel, other = ("angle", mesh.wheels[0]), ("angle", mesh.wheels[1])
+        carrier = ("angle", mesh.bodies[1] if mesh.slide == mesh.carrier else mesh.carrier)
+        wheel, other = ("angle", mesh.bodies[0]), ("angle", mesh.bodies[1])
         rolled: tuple[tuple[Coordinate, Fraction], ...] = ((wheel, part), (other, other_part))
         if mesh.is_rack:
             rolled = (("travel", mesh.slide), Fraction(mesh.sense)), (wheel, part)

@@ -73,12 +73,12 @@ def shares(mechanism, solved, symbol):
     sliding = next((s for s in mechanism.slidings if (s.a, s.b) == (second, first) and point in ("", s.pin)), None)
     pin = next((p for p in mechanism.slides if (p.of, p.b) == (second, first) and point in ("", p.pin)), None)
     cam = next((c for c in mechanism.cams if (c.link, c.follower) == (first, second)), None)
-    gear = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
+    gear = next((g for g in mechanism.gears if g.bodies == (first, second)), None)
     if gear is not None:
         return second, first, pitch_point(motion, gear)[0]
     if cam is not None:
         return second, first, cam.axis + cam_at(cam, cam_angle(cam, motion.poses[first].u)).contact
-    mesh = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
+    mesh = next((g for g in mechanism.gears if g.bodies == (first, second)), None)
     if mesh is not None:
         return second, first, pitch_point(motion, mesh)[0]
     touch = next((c for c in mechanism.contacts if c.bodies == (first, second)), None)

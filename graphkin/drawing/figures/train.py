@@ -235,12 +235,12 @@ def _planes(line: CentreLine) -> tuple[Mapping[str, int], Mapping[str, int], int
     for mesh in line.meshes:
         pitch = line.spot(mesh.name).height
         rims_here = [(wheel, axis, round(abs(pitch - line.spot(axis).height), 12))
-               for wheel, axis in zip(mesh.wheels, mesh.axes, strict=True) if axis]  # fmt: skip
+               for wheel, axis in zip(mesh.bodies, mesh.axes, strict=True) if axis]  # fmt: skip
         of[mesh.name] = next((rims[rim] for rim in rims_here if rim in rims), len(set(of.values())))
         rims.update(dict.fromkeys(rims_here, of[mesh.name]))
     first = len(set(of.values()))
     upright = [name for mesh in line.meshes for name in (
-        *(wheel for wheel, part in zip(mesh.wheels, mesh.teeth, strict=True) if _ring(mesh, part)), mesh.carrier)]
+        *(wheel for wheel, part in zip(mesh.bodies, mesh.teeth, strict=True) if _ring(mesh, part)), mesh.carrier)]
     behind = {name: first + k for k, name in enumerate(dict.fromkeys(upright))}
     return of, behind, first + len(behind)
 
@@ -280,7 +280,7 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
 
     for mesh in line.meshes:
         plane, pitch = planes[mesh.name], heights[mesh.name]
-        for wheel, axis, part in zip(mesh.wheels, mesh.axes, mesh.teeth, strict=True):
+        for wheel, axis, part in zip(mesh.bodies, mesh.axes, mesh.teeth, strict=True):
             centre = heights[axis or mesh.axes[0]]
             away = 1.0 if pitch > centre else -1.0
             inward = away * (APART if not _ring(mesh, part) else -APART) if axis else 0.0
@@ -332,7 +332,7 @@ def _shafts(
         if len(planes) > 1:
             shaft(link, axis, min(planes), max(planes))
     for mesh in line.meshes:
-        for wheel, axis in zip(mesh.wheels, mesh.axes, strict=True):
+        for wheel, axis in zip(mesh.bodies, mesh.axes, strict=True):
             planes_here, held = on_axis.get((wheel, axis), set()), on_axis.get((mesh.carrier, axis), set())
             # where several links turn about an axis one in another, shafts would hide each other
             if axis and planes_here and held and not (len(line.spot(axis).links) > 2 and axis == line.still):
