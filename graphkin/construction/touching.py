@@ -75,10 +75,8 @@ class Touching:
         point of a gear, with the line of centres as its normal, for a rack the normal of its pitch line; or the place
         of a cam, with its normal to the follower."""
         if isinstance(pair, LawCam):
-            pose = self.poses[pair.link]
-            here = station(pair, pair.sense * phase(pose.axis))
-            at, normal = pose.origin + pose.axis * here.contact * self.mm, pose.axis * here.normal
-            return Touch("K", pair.bodies, at, normal, pair.means)
+            here = next(here for here in self.cams if here.cam is pair)
+            return Touch("K", pair.bodies, here.contact, here.normal, pair.means)
         return self._contact(pair) if isinstance(pair, PlacedContact) else self._mesh(pair)
 
     def _contact(self, pair: PlacedContact) -> Touch:
@@ -134,7 +132,11 @@ class Touching:
             if isinstance(pair, PlacedContact):
                 yield touch
             elif not (pair.by_law and frozenset(pair.bodies) in between):
-                yield replace(touch, name=_free(touch.name, taken))
+                name = touch.name
+                while name in taken:
+                    name += "'"
+                taken.add(name)
+                yield replace(touch, name=name)
 
     def rolling(self) -> Iterator[Touch]:
         """The points of rolling, by the name of the contact or the gear."""
@@ -193,14 +195,6 @@ class Touching:
         profiles = (self.profile(cam) for cam in self.scene.cams if cam.link in names)
         spots = [z for profile in profiles for z in profile]
         return spots + [centre + radius * side for centre, radius in circles for side in (1, 1j, -1, -1j)]
-
-
-def _free(name: str, taken: set[str]) -> str:
-    """A letter that no point has, from then on taken."""
-    while name in taken:
-        name += "'"
-    taken.add(name)
-    return name
 
 
 # -- the outlines of cams ----------------------------------------------------------------------------------------------

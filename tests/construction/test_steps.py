@@ -140,7 +140,7 @@ def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name(
 def test_an_angle_below_zero_is_laid_off_with_the_minus_of_print(base: str) -> None:
     step = PlaceStep("lay off", "angle", link="6", point="G", value=math.radians(-30), base=base)
     assert "at −30 degrees" in str(step.phrase)
-    assert "−30" == RateStep("carry over", "held still", kind="angle", value=math.radians(-30)).amount
+    assert "−30" == RateStep("carry over", "held still", kind="angle", value=math.radians(-30)).gap("amount")
     tried = TrialPositions("trial", "positions", instead=(("5", "6", math.radians(-30)),))
     assert "−30" == tried.phrase.gaps["angle"]
 

@@ -486,28 +486,22 @@ class RateStep(Step):
         return super().sentence.format(kind=self.kind, turning=turning, diagram=self.diagram)
 
     @property
-    def amount(self) -> str:
-        """The value as it is written: an angle in degrees, others in SI units."""
-        return true_minus(f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}")
-
-    @property
     def unit(self) -> str:
         """The unit of the rate of a link, in print."""
         return Units().of(KINDS[self.kind].measure).written
 
-    @property
-    def sense(self) -> object:
-        """The sense of turning."""
-        return sense_of(self.value)
-
     def gap(self, name: str) -> object:
-        """The value of a gap in its sentence: an argument, or a rate in figures."""
-        return self._in_figures[name] if name in self._in_figures else super().gap(name)
+        """The value of a gap in its sentence: an argument, the sense of turning, or a rate in figures."""
+        written = {"sense": sense_of(self.value), **self._in_figures}
+        return written[name] if name in written else super().gap(name)
 
     @property
-    def _in_figures(self) -> Mapping[str, str]:
-        """A rate in figures: as measured, as the sum of two, or on the plan of a train."""
+    def _in_figures(self) -> Mapping[str, object]:
+        """A rate in figures, as measured, as the sum of two, or on the plan of a train; or what is carried over from a
+        held link, an angle in degrees, others in SI units."""
         match self.reason:
+            case "held still":
+                return {"amount": true_minus(f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}")}
             case "sum of rates":
                 known, of = self.links
                 own = self.link == of

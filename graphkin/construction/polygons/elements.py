@@ -40,6 +40,7 @@ from graphkin.construction.polygons.equations import (
     same_turn,
     share_rate,
     spread,
+    turn_about,
     turned,
 )
 from graphkin.construction.polygons.polygons import RATE, Polygons, letter
@@ -109,7 +110,7 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     elif pair.turns:
         plot.rates[order][name] = Rate(name, rate, mm=mm, plan=driver.rolls)
     if pair.turns and name in plot.rates[order]:
-        _turn_about(plot, order, element, name, pair.point)
+        turn_about(plot, order, element, name, pair.point)
         return
     known = pair.b if name == pair.a else pair.a
     share_rate(plot, order, known, name)
@@ -119,19 +120,6 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
         labels, written = (PointRef(point, pair.b), PointRef(point, pair.a)), Direction("along", plot.guide_names(pair))
         edge = RelativeMotion(b, a, labels, written, slide=pair)
         draw_equation(plot, order, element, VectorChain.closing(edge if name == pair.a else edge.reversed()))
-
-
-def _turn_about(plot: Polygons, order: Order, element: Element, name: str, hinge: str) -> None:
-    """Lay off the first points of a link that turns at a known rate about a hinge, if they are not drawn yet: one of
-    its own, else those under sliding links on it."""
-    points = [PointRef(p) for p in plot.links[name].points if p != hinge]
-    slides = [s for s in plot.structure.slides if s.b == name and "/" not in name]
-    under = [node(plot.links, s.pin, name) for s in slides if s.pin in plot.places]
-    away = [n for n in (*points, *under) if abs(plot.places[n.point] - plot.places[hinge]) > plot.tiny]
-    for end in dict.fromkeys(away[:1] if any(n in points for n in away) else away):
-        if end not in plot.ends[order]:
-            arm = RelativeMotion.of_link(PointRef(hinge), end, name)
-            draw_equation(plot, order, element, VectorChain.closing(arm))
 
 
 def _roll(plot: Polygons, order: Order, element: Driven) -> float:
@@ -408,7 +396,7 @@ def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
         for pair in (p for p in rest.pairs if p.turns and held in p.links):
             name = pair.other(held)
             if name in held_plot.rates[order] and name not in held_plot.still:
-                _turn_about(held_plot, order, rest, name, pair.point)
+                turn_about(held_plot, order, rest, name, pair.point)
         _draw_group(held_plot, order, rest)
         for name in rest.members:
             held_plot.complete(order, name)

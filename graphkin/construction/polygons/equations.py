@@ -40,6 +40,7 @@ from graphkin.construction.polygons.vector_graph import (
     VectorChain,
     contacts_of,
     links_alike,
+    node,
 )
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.pairs import Pair
@@ -182,6 +183,19 @@ def draw_equation(plot: Polygons, order: Order, element: Element, equation: Vect
                 if edge.link not in plot.rates[order]:
                     symbol = symbol_of(plot, "v" if order == "velocity" else "at", edge)
                     _rate(plot, order, edge, plot.drawn[order][symbol], element)
+
+
+def turn_about(plot: Polygons, order: Order, element: Element, name: str, hinge: str) -> None:
+    """Lay off the first points of a link that turns at a known rate about a hinge, if they are not drawn yet: one of
+    its own, else those under sliding links on it."""
+    points = [PointRef(p) for p in plot.links[name].points if p != hinge]
+    slides = [s for s in plot.structure.slides if s.b == name and "/" not in name]
+    under = [node(plot.links, s.pin, name) for s in slides if s.pin in plot.places]
+    away = [n for n in (*points, *under) if abs(plot.places[n.point] - plot.places[hinge]) > plot.tiny]
+    for end in dict.fromkeys(away[:1] if any(n in points for n in away) else away):
+        if end not in plot.ends[order]:
+            arm = RelativeMotion.of_link(PointRef(hinge), end, name)
+            draw_equation(plot, order, element, VectorChain.closing(arm))
 
 
 def _close(plot: Polygons, order: Order, end: PointRef, side: Side, equation: int | None) -> None:

@@ -77,15 +77,12 @@ def place_by_trial(paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses) 
         paper.poses.update(_fit(paper, reduced, guess))
         return
 
-    def others() -> Iterator[ReducedMechanism]:
-        """Other reduced mechanisms, the best first; rolling links have their given places in their own only."""
-        there = {name: guess.get(name, pose) for name, pose in paper.poses.items()}
-        known = replace(paper, instrument=EXACT, poses=there, pricked={})
-        if not reduced.starts:
-            yield from best_first(reduced.structure, reduced.group, known, guess)
-
+    there = {name: guess.get(name, pose) for name, pose in paper.poses.items()}
+    known = replace(paper, instrument=EXACT, poses=there, pricked={})
+    # rolling links have their given places in their own reduced mechanism only
+    others = () if reduced.starts else best_first(reduced.structure, reduced.group, known, guess)
     stops: list[Unsolvable] = []
-    for tried in chain([reduced], others()):
+    for tried in chain([reduced], others):
         for _ in range(AGAIN):
             try:
                 _placed_by_hand(paper, tried, guess)

@@ -78,12 +78,7 @@ class TurnOfCrank:
         start = LimitPosition(values[driver.key], {name: pose for name, pose in poses.items() if name in links})
         turn = cls(PlacedElements(structure, elements), values, (start,))
         end = start.value + math.tau
-
-        def near(value: float, guess: Poses, before: Poses) -> Poses | None:
-            here = turn.near(value, guess, before)
-            return None if here is None else here.poses
-
-        steps = walk(near, start.poses, start.value, end, STEP, SMALLEST * STEP, SURPRISE, at_first=AT_FIRST)
+        steps = walk(turn.near, start.poses, start.value, end, STEP, SMALLEST * STEP, SURPRISE, at_first=AT_FIRST)
         positions = [start, *(LimitPosition(*at) for at in steps)]
         if positions[-1].value < end:
             raise Unsolvable("no whole turn", _short(why, driver.link, positions[-1].value))
@@ -91,12 +86,11 @@ class TurnOfCrank:
             raise Unsolvable("no whole turn", Problem(why, "the motion does not repeat after one turn"))
         return replace(turn, positions=tuple(positions))
 
-    def near(self, value: float, guess: Poses, before: Poses | None = None) -> LimitPosition | None:
-        """The position at a crank's value, near its expected place, and followed from another; None where the links do
-        not fit there."""
+    def near(self, value: float, guess: Poses, before: Poses | None = None) -> Poses | None:
+        """The links at a crank's value, near their expected places, and followed from others; None where they do not
+        fit there."""
         values = {**self.values, self.placed.structure.scene.drivers[0].key: value}
-        poses = found_near(self.placed, values, guess, self.positions[0].poses, before)
-        return None if poses is None else LimitPosition(value, poses)
+        return found_near(self.placed, values, guess, self.positions[0].poses, before)
 
     def limits(self, output: Pair | str, why: str) -> Limits:
         """The lowest and the highest position of a slide (by its travel) or of a link (by its angle).  Raises
@@ -104,7 +98,7 @@ class TurnOfCrank:
         """
         travels: list[float] = []
         for here in self.positions:
-            travels.append(_along(output, here, travels[-1] if travels else 0.0))
+            travels.append(_along(output, here.poses, travels[-1] if travels else 0.0))
         if isinstance(output, str) and abs(travels[-1] - travels[0]) > 1.0:
             raise Unsolvable("no whole turn", Problem(why, "link turns on and on it has no",
                                                       "ask for a link that swings or a", output=output))
@@ -136,28 +130,29 @@ class TurnOfCrank:
 
     def _refined(self, output: Pair | str, k: int, roughly: float) -> tuple[LimitPosition, float]:
         """The extreme of a curve through the positions about the k-th."""
-        here = self.positions[k]
-        middle, half, crank = here.value, 2 * STEP, self.placed.structure.scene.drivers[0].key
+        poses, crank = self.positions[k].poses, self.placed.structure.scene.drivers[0].key
+        middle, half = self.positions[k].value, 2 * STEP
         for _ in range(24):
             heights = []
             for at in middle + half * _NODES:
-                near = self.near(float(at), here.poses)
+                near = self.near(float(at), poses)
                 if near is None:
                     raise Unsolvable("no whole turn", _short(str(output), crank, at))
-                here = near
-                heights.append(_along(output, here, roughly))
+                poses = near
+                heights.append(_along(output, poses, roughly))
             c = _FIT @ np.array(heights)
             roots = chebyshev.chebroots(chebyshev.chebder(c))
             x = min((z.real for z in roots if abs(z.imag) < 1e-6 and abs(z.real) <= 1.0), key=abs, default=0.0)
             good = np.abs(c[-3:]).max() <= RESOLVED * np.abs(c).max()
             curved = np.abs(c[1:]).max() > 1e-3 * abs(c[0]) * SMALLEST
             middle += half * float(x)
-            here = self.near(middle, here.poses) or here
+            poses = self.near(middle, poses) or poses
             if (good and abs(x) < 0.7) or not curved or half < 1e-3:
                 break
             half = half if good else half / 2
-        at_rest = self.near(middle, here.poses) or self.positions[k]
-        return at_rest, _along(output, at_rest, roughly)
+        at_rest = self.near(middle, poses)
+        limit = self.positions[k] if at_rest is None else LimitPosition(middle, at_rest)
+        return limit, _along(output, limit.poses, roughly)
 
 
 def limits_asked(
@@ -239,10 +234,10 @@ def _short(why: str, link: str, value: float) -> Problem:
                    end=end)
 
 
-def _along(output: Pair | str, here: LimitPosition, near: float) -> float:
+def _along(output: Pair | str, poses: Poses, near: float) -> float:
     """Travel of a slide (mm of paper of the mechanism's size, from anywhere), or a link's angle nearest to a known
     one."""
     if isinstance(output, str):
-        angle = cmath.phase(here.poses[output].axis)
+        angle = cmath.phase(poses[output].axis)
         return angle + math.tau * round((near - angle) / math.tau)
-    return travel(output, here.poses, 0.0)  # from wherever the guide has its origin: only differences are of interest
+    return travel(output, poses, 0.0)  # from wherever the guide has its origin: only differences are of interest

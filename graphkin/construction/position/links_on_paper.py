@@ -71,8 +71,8 @@ class PlacedLinks:
     def fresh(self, poses: Poses) -> dict[str, complex]:
         """Places (m) of the points of further links in these poses that no link here has."""
         known = {p for name in self.poses for p in self.links[name].points}
-        there = PlacedLinks(self.links, self.mm, self.values, dict(poses))
-        return {p: there.point(n, p) / self.mm for n in poses for p in self.links[n].points if p not in known}
+        return {p: pose.place(z * self.mm) / self.mm
+                for n, pose in poses.items() for p, z in self.links[n].points.items() if p not in known}  # fmt: skip
 
     def settle(self, names: Sequence[str]) -> None:
         """Prick the new points of links just placed, and put the links where their pricked points are."""

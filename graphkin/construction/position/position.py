@@ -378,18 +378,13 @@ def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGr
 def _fits_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGroup) -> Iterator[dict[str, Pose]]:
     """Positions of a group near its sketch, up to the first that agrees with it: drawn at trial values of the sketch,
     in the assembly nearest to it, and improved until they fit."""
-    structure = placed.structure
-    places, rough = {**structure.scene.sketch, **structure.scene.drawn}, sketched_poses(structure, group, paper)
-
-    def misfit(drawn: PlacedLinks) -> float:
-        return added_up(abs(z - places[p]) for p, z in paper.fresh(drawn.poses).items() if p in places)
-
+    structure, rough = placed.structure, sketched_poses(placed.structure, group, paper)
     for reduced in placed.of[group]:
         if not rough.keys() >= {name for driver in reduced.trial for name in driver.links}:
             continue
         values = reduced.values(rough, paper.mm)
         drawings = (drawn for _, drawn in each_assembly(reduced.opened(paper, values), reduced.elements))
-        offs = ((misfit(drawn), dict(drawn.poses)) for drawn in drawings)
+        offs = ((added_up(_off_sketch(structure, paper, drawn.poses)), dict(drawn.poses)) for drawn in drawings)
         near = min(offs, key=lambda drawing: drawing[0], default=None)
         fit = None if near is None else fitted(reduced, paper, near[1], values)
         if fit is not None:
@@ -432,11 +427,15 @@ def sketched_poses(structure: Structure, group: LargerGroup, known: PlacedLinks)
     return poses
 
 
+def _off_sketch(structure: Structure, paper: PlacedLinks, poses: Poses) -> list[float]:
+    """The distances (m) of the points of further links from their sketched places."""
+    places = {**structure.scene.sketch, **structure.scene.drawn}
+    return [abs(z - places[p]) for p, z in paper.fresh(poses).items() if p in places]
+
+
 def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
     """Whether all points lie near their sketched places."""
-    places = {**structure.scene.sketch, **structure.scene.drawn}
-    distances = (abs(z - places[p]) for p, z in paper.fresh(poses).items() if p in places)
-    return max(distances, default=0.0) <= ROUGHLY * structure.scene.size
+    return max(_off_sketch(structure, paper, poses), default=0.0) <= ROUGHLY * structure.scene.size
 
 
 def _without_twins(

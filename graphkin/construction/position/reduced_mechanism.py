@@ -26,9 +26,9 @@ from graphkin.construction.position.links_on_paper import (
     met_near,
     moved,
     reading,
+    stuck,
     travel,
 )
-from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses, cross, cross_lines, unit
 from graphkin.scene.model import Driver
 from graphkin.scene.pairs import Pair
@@ -44,7 +44,6 @@ from graphkin.structure import (
     unrolled,
     without,
 )
-from graphkin.words import Phrase
 
 MOST_REMOVED = 4
 MOST_KEPT = 24  # reduced mechanisms with several trial drivers that are looked at
@@ -114,12 +113,7 @@ class ReducedMechanism:
 
 def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int = 0) -> list[ReducedMechanism]:
     """All reductions of a larger group to dyads with the fewest constraints removed, or with the fewest above
-    ``more_than``.
-
-    Raises
-    ------
-    Unsolvable : "not drawn": no constraints can be left out so that only dyads remain
-    """
+    ``more_than``; none if no constraints can be left out so that only dyads remain."""
     before = structure.elements[: structure.elements.index(group)]
     known = {structure.scene.frame.name, *(n for e in before for n in e.members)}
     rolling = len(group.rolling)
@@ -127,7 +121,7 @@ def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int 
         reduced = list(islice(_reduced(structure, group, known, count), MOST_KEPT if count > 1 else None))
         if reduced:
             return reduced
-    raise Unsolvable("not drawn", Problem(group.named, Phrase("nothing can be left out so that only")))
+    return []
 
 
 def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: int) -> Iterator[ReducedMechanism]:
@@ -365,6 +359,8 @@ class PlacedElements:
         self.structure, self.elements = structure, elements
         wanted = [c for c in structure.larger_groups if c in elements]
         self.of: Mapping[LargerGroup, list[ReducedMechanism]] = {c: reduced_mechanisms(structure, c) for c in wanted}
+        for group in (group for group, reduced in self.of.items() if not reduced):
+            raise stuck("not drawn", group.named, "nothing can be left out so that only")
         self.last: dict[LargerGroup, ReducedMechanism] = {}
         self._further: dict[LargerGroup, list[ReducedMechanism]] = {}
 
@@ -382,11 +378,7 @@ class PlacedElements:
         """The reduced mechanisms with more constraints removed than necessary, for positions at which the others are at
         dead points."""
         if group not in self._further:
-            try:
-                fewest = len(self.of[group][0].removed)
-                self._further[group] = reduced_mechanisms(self.structure, group, fewest)
-            except Unsolvable:
-                self._further[group] = []
+            self._further[group] = reduced_mechanisms(self.structure, group, len(self.of[group][0].removed))
         return self._further[group]
 
     def best(self, group: LargerGroup, known: PlacedLinks, guess: Poses) -> TrialDrawing | None:
@@ -511,19 +503,15 @@ class TrialDrawing:
                 step = np.linalg.solve(slopes, -here.gaps)
             except np.linalg.LinAlgError:
                 break
-            if not np.abs(step).max() <= 1.0:
-                break  # nowhere near, or nothing but rounding is left
+            if not 0.0 < np.abs(step).max() <= 1.0:
+                break  # it closes, is nowhere near, or nothing but rounding is left
             following = here.moved_by(step)
             if following is None:
                 break
             if np.abs(following.gaps).max() >= np.abs(here.gaps).max() and np.abs(here.gaps).max() < FIT:
                 break
-            if not step.any():
-                break
             slopes = slopes + np.outer(following.gaps - here.gaps - slopes @ step, step) / (step @ step)
             here = following
-            if not here.gaps.any():
-                break
         return self.reduced.put_back(here.drawn) if np.abs(here.gaps).max() < FIT else None
 
 

@@ -201,8 +201,8 @@ def _least(
     step = turn.positions[1].value - turn.positions[0].value
     for _ in range(NARROWER):  # the least lies between its neighbours
         step /= 2
-        near = [one for value in (best.value - step, best.value + step) if (one := turn.near(value, best.poses))]
-        best = min([best, *near], key=gamma)
+        near = ((value, turn.near(value, best.poses)) for value in (best.value - step, best.value + step))
+        best = min([best, *(LimitPosition(value, poses) for value, poses in near if poses)], key=gamma)
     sheet = drawn(best.value)
     inner = group.inner
     pose = sheet.poses[inner.a]
