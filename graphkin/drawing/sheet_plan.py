@@ -45,11 +45,11 @@ class SheetPlan:
     mechanism: Box
     velocity: Box
     acceleration: Box
-    equations: Box | None
-    given: Box | None
-    readings: Box | None
     block: Box
-    cost: float = 0.0
+    cost: float
+    equations: Box | None = None
+    given: Box | None = None
+    readings: Box | None = None
     beside: Box | None = None  # room for writing below polygons that leave some of theirs
 
     @property
@@ -65,12 +65,9 @@ class SheetPlan:
 
     def holds(self, sizes: tuple[tuple[float, float], ...]) -> bool:
         """Whether mechanism and polygons of these widths and heights fit."""
-        room = self.room
-        rooms = room.mechanism, room.polygon, room.polygon
-        return all(
-            size[0] <= most[0] * (1 + 1e-9) and size[1] <= most[1] * (1 + 1e-9)
-            for size, most in zip(sizes, rooms, strict=True)
-        )
+        rooms = self.room.mechanism, self.room.polygon, self.room.polygon
+        both = (pair for each in zip(sizes, rooms, strict=True) for pair in zip(*each, strict=True))
+        return all(size <= most * (1 + 1e-9) for size, most in both)
 
 
 def sheet_room(scene: Mechanism) -> Room:
@@ -94,10 +91,8 @@ def with_less_mechanism(plan: SheetPlan, sheet: Sheet) -> Iterator[SheetPlan]:
     spare = panel.height - sheet.drawn_sizes[0][1] - AROUND_MECHANISM[1] - FOR_DIMENSIONS
     for share in (0.5, 1.0) if spare > 0 else ():
         up = share * spare
-        yield replace(
-            plan, mechanism=Box(panel.left, panel.top, panel.right, panel.bottom - up),
-            equations=Box(equations.left, equations.top - up, equations.right, equations.bottom),
-        )  # fmt: skip
+        yield replace(plan, mechanism=panel._replace(bottom=panel.bottom - up),
+                      equations=equations._replace(top=equations.top - up))  # fmt: skip
 
 
 def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[SheetPlan]:
@@ -105,19 +100,18 @@ def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[Sh
     velocity, acceleration = plan.velocity, plan.acceleration
     if plan.equations is None or velocity.left != acceleration.left:
         return
-    spare = [
-        max(0.0, panel.height - max(LEAST_POLYGON, high))
-        for panel, high in zip((velocity, acceleration), heights, strict=True)
-    ]
+    spare = [max(0.0, panel.height - max(LEAST_POLYGON, high))
+             for panel, high in zip((velocity, acceleration), heights, strict=True)]  # fmt: skip
     for chosen in ((0,), (1,), (0, 1)):
         less = [spare[i] if i in chosen else 0.0 for i in (0, 1)]
         if not all(less[i] for i in chosen) or added_up(less) < LEAST_BESIDE:
             continue
-        upper = Box(velocity.left, velocity.top, velocity.right, velocity.bottom - less[0])
         bottom = acceleration.bottom - added_up(less)
-        lower = Box(acceleration.left, acceleration.top - less[0], acceleration.right, bottom)
-        room = Box(lower.left, lower.bottom + GUTTER, lower.right, acceleration.bottom)
-        yield replace(plan, velocity=upper, acceleration=lower, beside=room)
+        yield replace(
+            plan, velocity=velocity._replace(bottom=velocity.bottom - less[0]),
+            acceleration=acceleration._replace(top=acceleration.top - less[0], bottom=bottom),
+            beside=acceleration._replace(top=bottom + GUTTER),
+        )  # fmt: skip
 
 
 def _plans(scene: Mechanism) -> Iterator[SheetPlan]:
@@ -164,51 +158,42 @@ def _upright(
         polygons, the equations between the given and the readings
     """
     page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
-    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
+    block = page._replace(top=page.bottom - BLOCK)
     top = page.top + HEAD + CAPTION
     middle = page.left + split * page.width
     high = polygon * page.height if polygon else (block.top - 2 * GUTTER - CAPTION - top) / 2
     velocity = Box(middle + GUTTER, top, page.right, top + high)
     acceleration = velocity.moved(complex(0, high + CAPTION + GUTTER))
     mechanism = Box(page.left, top, middle, top + tall * high if tall else acceleration.bottom)
-    panels = (mechanism, velocity, acceleration)
+    plan = SheetPlan(width, height, mechanism, velocity, acceleration, block, cost)
     if polygon is None:
-        return SheetPlan(width, height, *panels, None, None, None, block, cost)
-    low, end = acceleration.bottom + GUTTER + CAPTION, block.top - GUTTER
-    third = page.left + 0.27 * page.width
-    given = Box(page.left, low, third, end)
-    readings = Box(third + 2 * GUTTER, low, page.right, end)
+        return plan
+    low = Box(page.left, acceleration.bottom + GUTTER + CAPTION, page.right, block.top - GUTTER)
+    given = low._replace(right=page.left + (0.27 if tall else 0.2) * page.width)
     if tall:
         equations = Box(page.left, mechanism.bottom + GUTTER + CAPTION, middle, acceleration.bottom)
     else:
-        half = page.left + 0.56 * page.width
-        given = Box(page.left, low, page.left + 0.2 * page.width, end)
-        equations = Box(given.right + 2 * GUTTER, low, half, end)
-        readings = Box(half + 2 * GUTTER, low, page.right, end)
-    return SheetPlan(width, height, *panels, equations, given, readings, block, cost)
+        equations = low._replace(left=given.right + 2 * GUTTER, right=page.left + 0.56 * page.width)
+    readings = low._replace(left=(given if tall else equations).right + 2 * GUTTER)
+    return replace(plan, equations=equations, given=given, readings=readings)
 
 
 def _landscape(width: float, height: float, cost: float, wished: bool) -> Iterator[SheetPlan]:
     page = Box(MARGIN, MARGIN, width - MARGIN, height - MARGIN)
     top = page.top + HEAD + CAPTION
-    block = Box(page.left, page.bottom - BLOCK, page.right, page.bottom)
+    block = page._replace(top=page.bottom - BLOCK)
     third = (page.width - 2 * GUTTER) / 3
-    for share in (1 / 3, 0.22, 0.46):
-        for continued in (False, True) if wished else (False,):
-            bottom = block.top - GUTTER if continued else top + third * 0.98
-            wide = share * (page.width - 2 * GUTTER)
-            each = (page.width - 2 * GUTTER - wide) / 2
-            first = Box(page.left, top, page.left + wide, bottom)
-            second = Box(first.right + GUTTER, top, first.right + GUTTER + each, bottom)
-            panels = (first, second, second.moved(complex(each + GUTTER, 0)))
-            dear = cost + CONTINUED * continued + NARROW * (share != 1 / 3)
-            if continued:
-                yield SheetPlan(width, height, *panels, None, None, None, block, dear)
-                continue
-            low, end = bottom + GUTTER + CAPTION, block.top - GUTTER
+    for share, continued in product((1 / 3, 0.22, 0.46), (False, True) if wished else (False,)):
+        bottom = block.top - GUTTER if continued else top + third * 0.98
+        wide = share * (page.width - 2 * GUTTER)
+        each = (page.width - 2 * GUTTER - wide) / 2
+        first = Box(page.left, top, page.left + wide, bottom)
+        second = Box(first.right + GUTTER, top, first.right + GUTTER + each, bottom)
+        dear = cost + CONTINUED * continued + NARROW * (share != 1 / 3)
+        plan = SheetPlan(width, height, first, second, second.moved(complex(each + GUTTER, 0)), block, dear)
+        if not continued:
+            low = Box(page.left, bottom + GUTTER + CAPTION, page.right, block.top - GUTTER)
             one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
-            given = Box(page.left, low, one, end)
-            equations = Box(one + GUTTER, low, two, end)
-            yield SheetPlan(
-                width, height, *panels, equations, given, Box(two + GUTTER, low, page.right, end), block, dear
-            )
+            plan = replace(plan, equations=low._replace(left=one + GUTTER, right=two), given=low._replace(right=one),
+                           readings=low._replace(left=two + GUTTER))  # fmt: skip
+        yield plan

@@ -75,17 +75,13 @@ def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
         if reading.symbol.is_vector or reading.symbol.scope != "motion":
             shown.append(entry)
             continue
-        alike = next((i for i, other in enumerate(shown) if _alike(other, entry)), None)
-        if alike is not None:
+        turns = [(r.symbol.kind, r.value, r.on_paper) for r in (row.reading for row in (*shown, entry))]
+        alike = turns.index(turns[-1])
+        if alike < len(shown):
             shown[alike] = replace(shown[alike], more=(*shown[alike].more, reading.symbol.link))
         elif reading.on_paper:
             shown.append(entry)
     return sorted(shown, key=lambda row: row.rank)
-
-
-def _alike(one: TableRow, two: TableRow) -> bool:
-    a, b = one.reading, two.reading
-    return a.symbol.kind == b.symbol.kind and a.value == b.value and a.on_paper == b.on_paper
 
 
 def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:

@@ -29,7 +29,7 @@ from graphkin.drawing.text import rich, runs_width
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.structure.loops import Loop, LoopBlock, loops_in_numbers
-from graphkin.words import Neutral, Phrase, in_all, languages, listed, say
+from graphkin.words import Neutral, Phrase, languages, listed, say
 from graphkin.words.symbols import Words, sign, spaced
 
 PANEL = (84.0, 62.0)  # width and least height of a polygon's panel (mm)
@@ -168,15 +168,14 @@ def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[Wor
     """The lines of text of a loop, and whether each is bold."""
     scene = page.sheet.scene
     sum_ = Neutral(equation(loop, page.convention))
-    head = Phrase("loop heading", loop=loop.name, links=listed(loop.links), equation=sum_)
-    yield from ((text, True) for text in in_all(head, page.language))
+    head = page.said("loop heading", loop=loop.name, links=listed(loop.links), equation=sum_)
+    yield from ((text, True) for text in head)
     x, y = projections(loop, block, scene)
     yield from (("x:  " + x, False), ("y:  " + y, False))
     gap = _gap(page.sheet, loop)
     if gap is not None:
         size = Neutral(f"{number(gap / scene.units.metres, 4)} {scene.units.length}")
-        gap_named = Phrase("loop open", loop=loop.name, gap=size)
-        yield from ((text, False) for text in in_all(gap_named, page.language))
+        yield from ((text, False) for text in page.said("loop open", loop=loop.name, gap=size))
     if loop.root is not None:
         every = dict.fromkeys(root(loop.root, scene, each) for each in languages(page.language))
         yield from ((text, False) for text in every)
@@ -186,11 +185,10 @@ def _matrix(matrix: MatrixEquation, room: float) -> Block:
     """A matrix equation with its brackets, as large as it fits a width (mm)."""
     size = SIZE
     while True:
-        columns = [[rich(cells[k], size) for cells in matrix.rows] for k in range(len(matrix.unknowns))]
+        columns = [[rich(cell, size) for cell in cells] for cells in zip(*matrix.rows, strict=True)]
         names, right = [rich(n, size) for n in matrix.unknowns], [rich(r, size) for r in matrix.right]
-        widths = [max(map(runs_width, cells)) for cells in columns]
-        whole = added_up(widths) + 2.6 * len(widths) + max(map(runs_width, names)) + max(map(runs_width, right)) + 16.0
-        if whole <= room or size <= 1.6:
+        widths = [max(map(runs_width, cells)) for cells in (*columns, names, right)]
+        if added_up(widths) + 2.6 * len(columns) + 16.0 <= room or size <= 1.6:
             break
         size -= 0.2
     step = 1.5 * size
@@ -201,28 +199,22 @@ def _matrix(matrix: MatrixEquation, room: float) -> Block:
         for start, end in ((0j, 0.9 * sense + 0j), (0j, height * 1j), (height * 1j, height * 1j + 0.9 * sense)):
             drawn.append(Line(x + start, x + end, strokes.DIMENSION))
 
-    def cells(runs: Sequence[tuple[Run, ...]], x: float, wide: float, anchor: str) -> None:
-        place = x + wide if anchor == "end" else x
-        drawn.extend(Text(complex(place, step * (k + 0.85)), cell, anchor) for k, cell in enumerate(runs))
+    def bracketed(x: float, columns: Sequence[Sequence[tuple[Run, ...]]], anchor: str, past: float = 1.4) -> float:
+        """Columns of cells between brackets, which begin at a place; the place of the second."""
+        bracket(x, 1.0)
+        at = x + 1.4
+        for cells in columns:
+            wide = max(map(runs_width, cells))
+            place = at + wide if anchor == "end" else at
+            drawn.extend(Text(complex(place, step * (k + 0.85)), runs, anchor) for k, runs in enumerate(cells))
+            at += wide + 2.6
+        bracket(at - 2.6 + past, -1.0)
+        return at - 2.6 + past
 
-    bracket(0.0, 1.0)
-    x = 1.4
-    for column_cells, width in zip(columns, widths, strict=True):
-        cells(column_cells, x, width, "end")
-        x += width + 2.6
-    bracket(x - 1.0, -1.0)
-    x += 1.0
-    bracket(x, 1.0)
-    cells(names, x + 1.4, 0.0, "start")
-    x += 2.8 + max(map(runs_width, names))
-    bracket(x, -1.0)
+    x = bracketed(bracketed(0.0, columns, "end", 1.6) + 2.0, [names], "start")
     drawn.append(Text(complex(x + 1.6, height / 2 + 0.35 * size), rich("=", size)))
-    x += 5.0
-    bracket(x, 1.0)
-    wide = max(map(runs_width, right))
-    cells(right, x + 1.4, wide, "end")
-    bracket(x + 2.8 + wide, -1.0)
-    return Block(Piece({"labels": tuple(drawn)}), height, x + 2.8 + wide)
+    x = bracketed(x + 5.0, [right], "end")
+    return Block(Piece({"labels": tuple(drawn)}), height, x)
 
 
 FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.question.loops), of_all=True, place=12),)

@@ -41,7 +41,7 @@ from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_
 from graphkin.drawing.text import cut_off, fitted, plain, runs_width, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, about, languages, say
-from graphkin.words.symbols import RichText, Words, spaced
+from graphkin.words.symbols import spaced
 
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
 NAMES = 7.0  # mm above and below a polygon that gives room to the equations
@@ -90,10 +90,10 @@ def sheet_page(page: FigurePage, report: Report | None = None) -> Drawing:
     pieces = []
     if acceleration is not None:
         shown = (*shown, "acceleration")
-        pieces += [_panel(plan.acceleration, _caption(page, "acceleration")), acceleration]
+        pieces += [_panel(page, "acceleration", plan.acceleration), acceleration]
     pieces += [
-        heading(page, plan.page), _panel(plan.mechanism, _caption(page, "mechanism")),
-        _panel(plan.velocity, _caption(page, "velocity")), _mechanism(page, plan.mechanism), velocity, *writing,
+        heading(page, plan.page), _panel(page, "mechanism", plan.mechanism), _panel(page, "velocity", plan.velocity),
+        _mechanism(page, plan.mechanism), velocity, *writing,
         _below(plan.page, fitted(term("step number", page.language, number="(9)"), 2.4, 0.7 * plan.page.width)),
         title_block(page, [row.compared for row in rows if row.compared], plan.block),
     ]  # fmt: skip
@@ -172,13 +172,11 @@ def _below(frame: Box, words: tuple[Run, ...], anchor: str = "start") -> Piece:
     return Piece({"labels": (Text(corner, words, anchor),)})
 
 
-def _caption(page: FigurePage, diagram: DiagramName) -> RichText:
+def _panel(page: FigurePage, diagram: DiagramName, box: Box) -> Piece:
+    """The frame of a figure, above it its name and scale."""
     unit = dimensions_in(page.sheet, page.language) if diagram == "mechanism" else ""
     parts = page.term(FIGURE_WORDS[diagram]), page.scale(diagram), unit
-    return spaced(page.punctuation("list comma"), filter(None, parts))
-
-
-def _panel(box: Box, caption: Words) -> Piece:
+    caption = spaced(page.punctuation("list comma"), filter(None, parts))
     frame = Polygon(box.corners, "", strokes.DIMENSION)
     words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width))
     return Piece({"construction": (Group((frame,), classes=("panel",)),), "labels": (words,)})
@@ -311,16 +309,16 @@ def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...
 def below(room: Box, drawn: tuple[Primitive, ...], gap: float) -> Box:
     """The part of a room below its content."""
     ink = ink_box(drawn)
-    return Box(room.left, (ink.bottom if ink else room.top) + gap, room.right, room.bottom)
+    return room._replace(top=(ink.bottom if ink else room.top) + gap)
 
 
 def _under_caption(room: Box, place: Place) -> Box:
-    return room if place == "own" else Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    return room if place == "own" else room._replace(top=room.top + CAPTION)
 
 
 def _foot(room: Box) -> Box:
     """The foot of a room, which a row of insets fills."""
-    return Box(room.left, room.bottom - INSET[1], room.right, room.bottom)
+    return room._replace(top=room.bottom - INSET[1])
 
 
 def _own_given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
@@ -335,7 +333,7 @@ def _own_given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tu
 
 def _own_equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
     """The equations, and below them insets, if all equations have room above these."""
-    above = Box(room.left, room.top, room.right, _foot(room).top - GUTTER)
+    above = room._replace(bottom=_foot(room).top - GUTTER)
     if rest.coriolis and above.height >= EQUATIONS_ROOM:
         written, left = _equations(page, rest, above, place)
         if not left.equations:
@@ -363,9 +361,9 @@ def _senses(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple
     pieces: list[Piece] = []
     terms, count = rest.coriolis, per_row(room.width)
     while terms and room.height >= INSET[1] - ROUNDING:
-        row = Box(room.left, room.top, room.right, room.top + INSET[1])
+        row = room._replace(bottom=room.top + INSET[1])
         pieces.append(coriolis_row(page.sheet, terms[:count], page.letters, row))
-        terms, room = terms[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
+        terms, room = terms[count:], room._replace(top=row.bottom + GAP)
     return joined(pieces), replace(rest, coriolis=terms)
 
 

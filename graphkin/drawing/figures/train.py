@@ -48,21 +48,17 @@ def train_figure(page: FigurePage) -> Drawing | None:
 
 def train_pages(page: FigurePage) -> dict[int, Drawing]:
     """The pages of the plans with motion, by the numbers of these."""
-    return {
-        number: _page(page, plan, _steps_of(page.sheet, number)) for number, plan in enumerate(page.sheet.trains, 1)
-        if any((*plan.velocities.values(), *(line.value for line in plan.lines.values())))
-    }  # fmt: skip
+    pages, reasons = dict[int, Drawing](), ("plan", "given on plan")
+    for count, plan in enumerate(page.sheet.trains, 1):
+        if any((*plan.velocities.values(), *(line.value for line in plan.lines.values()))):
+            lines = (key for key in plan.lines if key[1] in page.sheet.scene.by_name)
+            steps = (step.number for step in page.sheet.steps if step.plan == count and step.reason in reasons)
+            pages[count] = _page(page, plan, dict(zip(lines, steps, strict=True)))
+    return pages
 
 
 Steps: TypeAlias = Mapping[tuple[int, str], int]
 """The number of the step that draws the line of a link, by line of centres and link."""
-
-
-def _steps_of(sheet: Sheet, number: int) -> Steps:
-    """The steps of a plan, by its number."""
-    lines = (key for key in sheet.trains[number - 1].lines if key[1] in sheet.scene.by_name)
-    steps = (step.number for step in sheet.steps if step.plan == number and step.reason in ("plan", "given on plan"))
-    return dict(zip(lines, steps, strict=True))
 
 
 def _page(page: FigurePage, plan: TrainPlan, steps: Steps) -> Drawing:
@@ -275,7 +271,7 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
     def fixed(link: str, z: complex, away: float) -> None:
         """The frame at a place: above it (1), below it (-1), or a bearing to its right (0)."""
         half = complex(2.6, 0.0) if away else 2.6j
-        ends = (z - half, z + half) if away > 0 else (z + half, z - half) if away < 0 else (z - half, z + half)
+        ends = (z + half, z - half) if away < 0 else (z - half, z + half)
         shapes.setdefault(link, []).extend(hatched_line(on_page(ends[0]), on_page(ends[1])))
 
     for mesh in line.meshes:

@@ -7,10 +7,10 @@ Places are in mm, y up, about the world's origin, until `on_page` turns them.
 from __future__ import annotations
 
 import math
-from cmath import phase
+from cmath import phase, rect
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise
 
 from graphkin.account.notation import Notation
@@ -113,11 +113,8 @@ class MechanismOnPaper:
     @cached_property
     def found(self) -> Mapping[str, int]:
         """The first step that marks each point of the mechanism."""
-        found: dict[str, int] = {}
-        for step in self.steps:
-            for mark in (s for s in step.strokes if isinstance(s, Mark)):
-                found.setdefault(mark.ref.point, step.number)
-        return found
+        marks = ((s.ref.point, step.number) for step in self.steps for s in step.strokes if isinstance(s, Mark))
+        return dict(reversed([*marks]))
 
     @cached_property
     def shapes(self) -> tuple[LinkShape, ...]:
@@ -156,13 +153,10 @@ class MechanismOnPaper:
     @cached_property
     def _faces(self) -> tuple[Slider, ...]:
         """The flat faces of moving links as sliders: a contact with the direction of the face."""
-        found = []
-        for slide in self.sheet.structure.slides:
-            pair = self.scene.replaced_by.get(slide.key)
-            at = None if pair is None else self.places.get(pair.name)
-            if at is not None and slide.b in self.sheet.poses:
-                found.append(Slider(slide, at, slide.along(self.sheet.poses), False))
-        return tuple(found)
+        pairs, places = self.scene.replaced_by, self.places
+        slides = (s for s in self.sheet.structure.slides if s.key in pairs and pairs[s.key].name in places)
+        return tuple(Slider(slide, places[pairs[slide.key].name], slide.along(self.sheet.poses), False)
+                     for slide in slides if slide.b in self.sheet.poses)  # fmt: skip
 
     @cached_property
     def places(self) -> Mapping[str, complex]:
@@ -190,18 +184,15 @@ class MechanismOnPaper:
     @cached_property
     def feet(self) -> Mapping[str, float]:
         """The directions of the feet of fixed pivots (rad): down, unless links are in the way."""
-        return {point: self._foot(self.places[point]) for point in self.scene.frame.points if self.moving(point)}
 
-    def _foot(self, here: complex) -> float:
-        ways = [phase(w) for w in self.ways(here)]
-
-        def cost(angle: float) -> float:
-            nearest = min((abs(math.remainder(angle - way, math.tau)) for way in ways), default=math.pi)
-            end = here + (symbols.FOOT_HEIGHT + 1.0) * complex(math.cos(angle), math.sin(angle))
+        def cost(here: complex, angle: float) -> float:
+            ways = (abs(math.remainder(angle - phase(way), math.tau)) for way in self.ways(here))
+            end = here + (symbols.FOOT_HEIGHT + 1.0) * rect(1.0, angle)
             covered = sum(_inside(end, shape.corners) for shape in self.shapes)
-            return FOOT[angle] + max(0.0, 0.9 - nearest) * 3 + 0.9 * covered
+            return FOOT[angle] + max(0.0, 0.9 - min(ways, default=math.pi)) * 3 + 0.9 * covered
 
-        return min(FOOT, key=cost)
+        pivots = {point: self.places[point] for point in self.scene.frame.points if self.moving(point)}
+        return {point: min(FOOT, key=partial(cost, at)) for point, at in pivots.items()}
 
     def ways(self, here: complex) -> list[complex]:
         """Directions in which bars leave a place."""
@@ -259,12 +250,12 @@ def _shape(
             met, span = [anchor], [foot]
         tied += met
         low, high = _reach(sliding, span)
-        slotted = [b for b in sliding if b.slide.key not in flat]
-        solid = _solid(slotted, low, high, line)
-        bars += [(line.at + a * line.along, line.at + z * line.along) for a, z in solid]
-        for b in slotted:
-            if b.slide.higher:
-                slots.append((b.at - PAST_PIN * line.along, b.at + PAST_PIN * line.along))
+        pins = [b.at for b in sliding if b.slide.higher and b.slide.key not in flat]
+        slots += [(pin - PAST_PIN * line.along, pin + PAST_PIN * line.along) for pin in pins]
+        # the guide is bar between its slots
+        cuts = sorted(dot(pin - line.at, line.along) for pin in pins)
+        solid = zip((low, *(t + PAST_PIN for t in cuts)), (*(t - PAST_PIN for t in cuts), high), strict=True)
+        bars += [(line.at + a * line.along, line.at + z * line.along) for a, z in solid if not pins or z - a > NEAR]
     loose = [z for z in anchors if z not in tied]
     corners: tuple[complex, ...] = ()
     if not carried or (loose and len(anchors) > 2):
@@ -290,23 +281,6 @@ def _reach(sliding: list[Slider], span: list[float]) -> tuple[float, float]:
         if not span or t <= low:
             low = min(low, t - past)
     return low, high
-
-
-def _solid(sliding: list[Slider], low: float, high: float, line: Slider) -> list[tuple[float, float]]:
-    """The stretches of a guide that are bar, without its slots."""
-    start, along = line.at, line.along
-    solid = [(low, high)]
-    for b in sliding:
-        if b.slide.higher:
-            t = dot(b.at - start, along)
-            cut = (t - PAST_PIN, t + PAST_PIN)
-            solid = [
-                (x, y)
-                for a, z in solid
-                for x, y in ((a, min(z, cut[0])), (max(a, cut[1]), z))
-                if y - x > NEAR
-            ]
-    return solid
 
 
 def _spanned(places: tuple[complex, ...]) -> tuple[tuple[complex, ...], tuple[Segment, ...]]:

@@ -24,7 +24,6 @@ from graphkin.drawing.place.obstacles import (
     Points,
     crosses,
     in_rows,
-    joined,
     near,
     segments_of,
     separated,
@@ -351,7 +350,7 @@ class LabelPanel:
         middles, halves, feet = places.forms[:3].take(some, axis=2)
         way = _gap(middles - feet, halves)
         first, last = feet + way / np.maximum(np.hypot(*way), 1e-9) * FOOT_REACH, feet + way
-        which, what = joined(near(sides_around(first, last), sides_around(start, end)))
+        which, what = near(sides_around(first, last), sides_around(start, end))
         over = touching(np.stack((first, last)).take(which, axis=2), np.stack((start, end)).take(what, axis=2))
         behind = np.zeros(len(some), dtype=bool)
         behind[which[over]] = True
@@ -365,18 +364,18 @@ class LabelPanel:
 
     def _touched(self, middles: Floats, halves: Floats, keep: bool) -> tuple[Indices, Indices]:
         """Pairs of a box and a touched obstacle; obstacles count areas, solid, dashed in turn."""
-        boxes, along = sides(middles, halves), self.end - self.start
-        found = [*near(boxes, [side[: self.areas] for side in self.reach])]
+        boxes = sides(middles, halves)
+        covered, areas = near(boxes, [side[: self.areas] for side in self.reach])
         others = np.arange(len(boxes[0]))
         if not keep:
-            others = np.delete(others, joined(found)[0])
+            others = np.delete(others, covered)
             boxes = [side.take(others) for side in boxes]
-        for box, line in near(boxes, [side[self.areas :] for side in self.reach]):
-            box, line = others.take(box), line + self.areas
-            offset = middles.take(box, axis=1) - self.start.take(line, axis=1)
-            hit = (~separated(offset, halves.take(box, axis=1), along.take(line, axis=1))).nonzero()[0]
-            found.append((box.take(hit), line.take(hit)))
-        return joined(found)
+        box, line = near(boxes, [side[self.areas :] for side in self.reach])
+        box, line = others.take(box), line + self.areas
+        offset = middles.take(box, axis=1) - self.start.take(line, axis=1)
+        along = (self.end - self.start).take(line, axis=1)
+        hit = (~separated(offset, halves.take(box, axis=1), along)).nonzero()[0]
+        return np.concatenate((covered, box.take(hit))), np.concatenate((areas, line.take(hit)))
 
     def _needs_leader(self, places: Places) -> Flags:
         """Whether places need a leader: far ones, and those about as near to another mark of the same kind as to their
@@ -385,7 +384,7 @@ class LabelPanel:
         close = (~led).nonzero()[0]
         middles, halves = places.forms[:2].take(close, axis=2)
         own, reach = self.own[places.owners[close]], halves + (places.gaps[close] + NEARER)
-        which, what = joined(near(sides(middles, reach), sides_around(self.mark_start, self.mark_end)))
+        which, what = near(sides(middles, reach), sides_around(self.mark_start, self.mark_end))
         others = self.mistakable.ravel().take(own.take(which) * len(self.mistakable) + what).nonzero()[0]
         which, what = which.take(others), what.take(others)
         offset = middles.take(which, axis=1) - self.mark_start.take(what, axis=1)
@@ -397,22 +396,22 @@ class LabelPanel:
     def _crossed(self, feet: Floats, start: Floats, to: Floats) -> tuple[Floats, Floats]:
         """The weight of the strokes that each leader crosses, and the greatest single weight: areas are joints and
         arrowheads, or writing."""
-        whole, heaviest = np.zeros((2, feet.shape[1]))
-        leaders, strokes = np.stack((start, to)), np.stack((self.start, self.end))
-        for which, what in near(sides_around(start, to), self.reach):
-            leader, stroke = leaders.take(which, axis=2), strokes.take(what, axis=2)
-            over = touching(leader, stroke).astype(float)
-            areas = (what < self.areas).nonzero()[0]  # a leader over an area crosses one of its diagonals
-            low, high = stroke.take(areas, axis=2)
-            foot = feet.take(which.take(areas), axis=1)
-            own = ((low <= foot) & (foot <= high)).all(axis=0)
-            written = self.weights.take(what.take(areas)) >= FORBIDDEN  # a foot under writing is no place for it
-            other = np.array(((low[0], high[1]), (high[0], low[1])))
-            over[areas] = np.where(own, written, over.take(areas) + crosses(leader.take(areas, axis=2), other))
-            hit = (over > 0.0).nonzero()[0]  # faster than of numbers
-            which, over = which.take(hit), over.take(hit) * self.weights.take(what.take(hit))
-            whole += np.bincount(which, over, len(whole))
-            np.maximum.at(heaviest, which, over)
+        which, what = near(sides_around(start, to), self.reach)
+        leader = np.stack((start, to)).take(which, axis=2)
+        stroke = np.stack((self.start, self.end)).take(what, axis=2)
+        over = touching(leader, stroke).astype(float)
+        areas = (what < self.areas).nonzero()[0]  # a leader over an area crosses one of its diagonals
+        low, high = stroke.take(areas, axis=2)
+        foot = feet.take(which.take(areas), axis=1)
+        own = ((low <= foot) & (foot <= high)).all(axis=0)
+        written = self.weights.take(what.take(areas)) >= FORBIDDEN  # a foot under writing is no place for it
+        other = np.array(((low[0], high[1]), (high[0], low[1])))
+        over[areas] = np.where(own, written, over.take(areas) + crosses(leader.take(areas, axis=2), other))
+        hit = (over > 0.0).nonzero()[0]  # faster than of numbers
+        which, over = which.take(hit), over.take(hit) * self.weights.take(what.take(hit))
+        heaviest = np.zeros(feet.shape[1])
+        np.maximum.at(heaviest, which, over)
+        whole: Any = np.bincount(which, over, len(heaviest))
         return whole, heaviest
 
 

@@ -90,26 +90,16 @@ def overlapping(boxes: Sides, others: Sides) -> Flags:
     return met
 
 
-def near(boxes: Sides, others: Sides) -> Iterator[tuple[Indices, Indices]]:
-    """Pairs of upright boxes that meet, by their indices, in lots."""
+def near(boxes: Sides, others: Sides) -> tuple[Indices, Indices]:
+    """The pairs of upright boxes that meet, by their indices."""
     width = len(boxes[0])
     rows = max(1, MOST_PAIRS // max(1, width))
+    pairs = [np.empty(0, dtype=np.intp)]
     for first in range(0, len(others[0]), rows):
-        which = overlapping(boxes, [side[first : first + rows] for side in others]).ravel().nonzero()[0]
-        what = which // max(1, width)
-        which -= what * width
-        what += first
-        yield which, what
-
-
-def joined(lots: Iterable[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
-    """All pairs of some lots."""
-    lots = list(lots)
-    if len(lots) == 1:
-        return lots[0]
-    none = np.empty(0, dtype=np.intp)
-    which, what = zip((none, none), *lots, strict=True)
-    return np.concatenate(which), np.concatenate(what)
+        met = overlapping(boxes, [side[first : first + rows] for side in others])
+        pairs.append(met.ravel().nonzero()[0] + first * width)
+    what, which = np.divmod(np.concatenate(pairs), max(1, width))
+    return which, what
 
 
 def separated(offset: Floats, half: Floats, along: Floats) -> Flags:
@@ -129,7 +119,7 @@ def separated(offset: Floats, half: Floats, along: Floats) -> Flags:
 def meets(segments: Points, centres: Points, half: Points) -> tuple[Indices, Indices]:
     """The pairs of segments, of shape (n, 2), and boxes that meet, by their indices."""
     start, end, middles, halves = map(in_rows, (*segments.T, centres, half))
-    which, what = joined(near(sides_around(start, end), sides(middles, halves)))
+    which, what = near(sides_around(start, end), sides(middles, halves))
     offset, along = middles.take(what, axis=1) - start.take(which, axis=1), (end - start).take(which, axis=1)
     met = (~separated(offset, halves.take(what, axis=1), along)).nonzero()[0]
     return which.take(met), what.take(met)
