@@ -58,17 +58,12 @@ def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]
     gap = text_box(text).grown(CLEAR).clip_line(at, along)
     head = POINTER.head_length
     if gap is not None and abs(gap[1] - gap[0]) + 2 * head + 1.0 <= 2 * min(share, 1 - share) * length:
-        parts += [Line(a, gap[0], strokes.DIMENSION), Line(gap[1], b, strokes.DIMENSION), *_heads(a, b)]
-        return *parts, text
-    if length >= 3 * head:
-        parts += [Line(a, b, strokes.DIMENSION), *_heads(a, b)]
-    else:  # arrowheads from outside
-        parts += [Line(a - 2 * head * along, b + 2 * head * along, strokes.DIMENSION)]
-        parts += [_head(a, along), _head(b, -along)]
-    box = text_box(_centred(runs, 0j))
-    reach = abs(along.real) * box.width / 2 + abs(along.imag) * box.height / 2
-    past = 2 * CLEAR + (0.0 if length >= 3 * head else 2 * head) + reach
-    return *parts, _centred(runs, b + past * along)
+        lines = Line(a, gap[0], strokes.DIMENSION), Line(gap[1], b, strokes.DIMENSION)
+        return *parts, *lines, _head(a, a - b), _head(b, b - a), text
+    outside = 0.0 if length >= 3 * head else 2 * head  # of the ends, where arrowheads stand on a short one
+    out = -along if outside else along
+    parts += [Line(a - outside * along, b + outside * along, strokes.DIMENSION), _head(a, -out), _head(b, out)]
+    return *parts, _centred(runs, b + (2 * CLEAR + outside + _reach(runs, along)) * along)
 
 
 def angle_dimension(
@@ -82,12 +77,10 @@ def angle_dimension(
     chord = tip - (centre + radius * page_direction(end - sense * turn))
     short = abs(end - start) * radius < SHORT_ARC
     outward = page_direction(start - sense * SHORT_ARC / radius if short else start + share * (end - start))
-    box = text_box(_centred(runs, 0j))
-    reach = abs(outward.real) * box.width / 2 + abs(outward.imag) * box.height / 2
     return (
         Arc(centre, radius, start, end - sense * 0.6 * turn, strokes.DIMENSION),
         arrowhead(tip, chord, turn * radius, POINTER.head_width, strokes.BLACK),
-        _centred(runs, centre + (radius + CLEAR + reach) * outward),
+        _centred(runs, centre + (radius + CLEAR + _reach(runs, outward)) * outward),
     )
 
 
@@ -108,8 +101,10 @@ def _centred(runs: tuple[Run, ...], at: complex) -> Text:
     return Text(at + 0.5j * CAP_HEIGHT * size, runs, "middle")
 
 
-def _heads(a: complex, b: complex) -> tuple[Polygon, Polygon]:
-    return _head(a, a - b), _head(b, b - a)
+def _reach(runs: tuple[Run, ...], way: complex) -> float:
+    """How far (mm) the box of a text reaches from its middle in a direction."""
+    box = text_box(_centred(runs, 0j))
+    return abs(way.real) * box.width / 2 + abs(way.imag) * box.height / 2
 
 
 def _head(tip: complex, along: complex) -> Polygon:

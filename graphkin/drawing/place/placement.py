@@ -35,7 +35,6 @@ PUSHED, PUSH = 200, 10.0
 ROUNDS = 6
 TRIED, LOOKED_AT = 45, 100  # places tried that others stand in, and places that these may make room in
 ROUNDING = 1e-6  # mm
-LOT = 4  # places of all labels looked at together for some in which no label stands
 IN_THE_WAY = 2  # labels that make room for another at most
 NOTHING = Obstacles()
 
@@ -77,9 +76,7 @@ class Placement:
         self.telling = False  # whether a list may tell labels by their ends
         self.outlines = np.empty((20, 2, 0))
         self._list_places()
-        order = ((label.rank >= DISPENSABLE, len(self.numbers[i]), i) for i, label in enumerate(labels))
-        if labels:
-            self._stand([i for _, _, i in sorted(order)])
+        self._stand(sorted(range(len(labels)), key=lambda i: (labels[i].rank >= DISPENSABLE, len(self.numbers[i]), i)))
         self._settle(range(len(labels)))
         for i, label in enumerate(labels):
             if label.rank == 0 and self.stands[i] == NOWHERE:
@@ -103,18 +100,15 @@ class Placement:
     @property
     def placed(self) -> tuple[Placed, ...]:
         """The labels at their places, in their order."""
-        some = [i for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD)]
-        places = np.array([self.stands[i] for i in some], dtype=np.intp)
-        forms = self.panel.places.forms.take(places, axis=2).transpose(2, 0, 1).tolist()
-        return tuple(map(self._placed, some, self.panel.places.owners.take(places).tolist(), forms))
+        return tuple(self._placed(i, k) for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD))
 
-    def _placed(self, i: int, request: int, form: Sequence[Sequence[float]]) -> Placed:
-        middle, half, foot, tip = (complex(*corner) for corner in form)
+    def _placed(self, i: int, k: int) -> Placed:
+        middle, half, foot, tip = (complex(*corner) for corner in self.panel.places.forms[:, :, k].tolist())
+        request = int(self.panel.places.owners[k])
         text, own = self.panel.texts[request], self.panel.boxes[request]
         low, high = middle - half, middle + half
         box = Box(low.real, low.imag, high.real, high.imag)
-        at = complex(box.left - own.left, box.top - own.top)
-        text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step, text.since)
+        text = text._replace(at=complex(box.left - own.left, box.top - own.top), anchor="start")
         leader = None if foot == tip else Line(foot, tip, strokes.LEADER)
         return Placed(text, box, leader, self.paid[i] < FORBIDDEN, request != i)
 
@@ -181,23 +175,10 @@ class Placement:
 
     def _stand(self, order: Sequence[int]) -> None:
         """Let labels take, in order, the cheapest free place."""
-        lots = [self.numbers[i][:LOT] for i in order]
-        outlines = self.outlines.take(np.concatenate(lots), axis=2)  # in which mostly there is a free one for each
-        met, shut = intersections(outlines, outlines), np.zeros(outlines.shape[2], dtype=bool)
-        first = 0
-        for i, lot in zip(order, lots, strict=True):
-            last = first + len(lot)
-            free = (~shut[first:last]).nonzero()[0]
+        for i in order:
+            free = self.numbers[i][~self._others_in(i, self.numbers[i]).any(axis=0)]
             if free.size:
-                k, barred = int(lot[free[0]]), met[first + free[0]]
-            else:
-                free = np.flatnonzero(~self._others_in(i, self.numbers[i]).any(axis=0))[:1]
-                k = int(self.numbers[i][free[0]]) if free.size else NOWHERE
-                barred = intersections(self.outlines[:, :, k : k + 1], outlines)[0]
-            if k != NOWHERE:
-                self._take(i, k, float(self.costs[k]))
-            shut |= barred
-            first = last
+                self._take(i, int(free[0]), float(self.costs[free[0]]))
 
     def _improve(self, i: int) -> bool:
         """Move a label, and a few in its way, to places of lower total cost; whether there are such places."""
