@@ -41,19 +41,7 @@ from graphkin.drawing.boxes import (
 )  # fmt: skip
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import (
-    Arc,
-    Circle,
-    Group,
-    Line,
-    Polygon,
-    Primitive,
-    Segment,
-    Stroke,
-    Text,
-    on_page,
-    walk,
-)
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Segment, Text, on_page, walk
 from graphkin.drawing.ink.strokes import colour_of_link, pale
 from graphkin.drawing.ink.symbols import POINTER, arrow
 from graphkin.drawing.parts.mechanism import bare_mechanism
@@ -84,7 +72,6 @@ CLEAR, WIDE = 1.55, 3.0  # mm from a number's middle to anything else, at least 
 KNOT, OUTSIDE = 3.5, 2.2  # letters of the names of links, and their distance from the circle
 ROUNDING = 1e-6  # mm
 SHARES = 0.1 + 0.01 * np.arange(81)  # of a side, where its number may stand
-PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
 
 
 def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
@@ -102,7 +89,8 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
     for centre, (a, b) in sides.items():
         if centre.place is None:
             continue
-        stroke = PERMANENT if centre.kind == "permanent" else OTHERWISE if centre.way else FOUND
+        found = strokes.OTHERWISE if centre.way else strokes.FOUND
+        stroke = strokes.PERMANENT if centre.kind == "permanent" else found
         at = None
         if centre.number:
             at = _free(a, b, [side for side in sides.values() if side != (a, b)], taken, middle, radius)
@@ -115,7 +103,7 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
             runs = plain(str(centre.number), 2.3)
             numbers.append(Text(at + 0.75j, runs, "middle", id=f"label-side-{name}", classes=("label",)))
         lines.append(Group(parts, id=f"side-{name}", classes=("side", centre.kind)))
-    thin = Stroke(0.18, (), strokes.GREY)
+    thin = strokes.DIMENSION.coloured(strokes.GREY)
     outline = (Arc(middle, radius, k * math.pi, (k + 1) * math.pi, thin) for k in (0, 1))
     knots: list[Primitive] = []
     for name, spoke in ways.items():

@@ -23,15 +23,7 @@ from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_ro
 from graphkin.drawing.figures import Figure, figure_kinds
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, moved, walk
-from graphkin.drawing.parts.insets import (
-    INSET,
-    ROUNDING,
-    CoriolisTerm,
-    coriolis_row,
-    mechanism_with_inset,
-    per_row,
-    polygon_with_insets,
-)
+from graphkin.drawing.parts.insets import INSET, CoriolisTerm, coriolis_rows, mechanism_with_inset, polygon_with_insets
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.place.dimensions import check_bar
@@ -358,13 +350,8 @@ def _equations(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tu
 
 
 def _senses(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:
-    pieces: list[Piece] = []
-    terms, count = rest.coriolis, per_row(room.width)
-    while terms and room.height >= INSET[1] - ROUNDING:
-        row = room._replace(bottom=room.top + INSET[1])
-        pieces.append(coriolis_row(page.sheet, terms[:count], page.letters, row))
-        terms, room = terms[count:], room._replace(top=row.bottom + GAP)
-    return joined(pieces), replace(rest, coriolis=terms)
+    drawn, left = coriolis_rows(page.sheet, rest.coriolis, page.letters, room, GAP)
+    return drawn, replace(rest, coriolis=left)
 
 
 def _given(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[Piece, Remainder]:

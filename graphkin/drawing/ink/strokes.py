@@ -33,6 +33,9 @@ OF_CENTRES = Stroke(0.13, (), "#7a7a7a")  # lines on which centres lie
 HATCHING = Stroke(0.18)
 DIMENSION = Stroke(0.18)
 LEADER = Stroke(0.18)
+READ, READ_OFF = (Stroke(width, (1.6, 0.8), "#c2006b") for width in (0.3, 0.8))  # lines of a scan; a wrong one
+# Of the circle diagram: sides of permanent centres, of found ones, of those found otherwise.
+PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
 HALO = Stroke(2.0, (), "#ffe08a")  # around what is new: pale enough to print as a light grey
 
 # Okabe and Ito, Color Universal Design (2008), darkened to a contrast of at least 4.5 to 1 on white paper so that

@@ -24,33 +24,12 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName, Size, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import (
-    Circle,
-    Group,
-    Line,
-    Polygon,
-    Primitive,
-    Scan,
-    Stroke,
-    Text,
-    map_tree,
-    on_page,
-)
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Scan, Text, map_tree, on_page
 from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow, sense_arc
+from graphkin.drawing.parts import polygon
 from graphkin.drawing.parts.mechanism import bare_mechanism
-from graphkin.drawing.parts.polygon import (
-    END_RADIUS,
-    NUMERAL,
-    Detail,
-    PolygonOnPage,
-    crowds,
-    details,
-    polygon_lines,
-    polygon_piece,
-    ring_numerals,
-    side_by_side,
-)
+from graphkin.drawing.parts.polygon import Detail, PolygonOnPage, polygon_lines, polygon_piece
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, with_labels, without
 from graphkin.drawing.place.numbers import step_numbers
@@ -84,7 +63,7 @@ def polygon_with_insets(
     -------
     the piece, and the Coriolis terms without room for their insets
     """
-    terms, small = coriolis_terms(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
+    terms, small = coriolis_terms(sheet, diagram), polygon.details(sheet, diagram)[:MOST_DETAILS]
     count = len(terms) + len(small)
     here = PolygonOnPage(sheet, diagram, letters, language, panel, origin)
     lines = polygon_lines(here)
@@ -95,7 +74,7 @@ def polygon_with_insets(
     enlarged = small[: len(boxes) - len(shown)]
     own = polygon_piece(here, enlarged, lines) if enlarged else plain
     figure, pieces, crowd = _with_details(here, enlarged, own, boxes[len(shown) :], boxes)
-    crowded = crowds(here, enlarged, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
+    crowded = polygon.crowds(here, enlarged, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
     for size in (INSET, SMALL_INSET) if crowded else ():
         more = boxes + _boxes(panel, plain, strip, len(crowded), size, boxes)
         if len(more) > len(boxes):
@@ -110,7 +89,7 @@ def polygon_with_insets(
     names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
     arrows = [(step, here.drawn(vector), names.get(f"label-{vector.symbol.id}")) for step, vector in here.in_order]
     numbers = Piece({"labels": step_numbers(arrows, keyed, panel, around)})
-    numerals = ring_numerals(here, enlarged, around + obstacles_of(numbers.drawn))
+    numerals = polygon.ring_numerals(here, enlarged, around + obstacles_of(numbers.drawn))
     return joined((figure, numbers, numerals, *pieces)), terms[len(shown) :]
 
 
@@ -154,7 +133,7 @@ def _with_details(
 
 def strip_height(sheet: Sheet, diagram: DiagramName, width: float) -> float:
     """Height (mm) of a strip of a width that holds all insets of a polygon."""
-    count = len(coriolis_terms(sheet, diagram)) + len(details(sheet, diagram)[:MOST_DETAILS])
+    count = len(coriolis_terms(sheet, diagram)) + len(polygon.details(sheet, diagram)[:MOST_DETAILS])
     return -(-count // per_row(width)) * (INSET[1] + GUTTER)
 
 
@@ -172,7 +151,7 @@ def _detail_inset(
     parts: list[Primitive] = []
     names: dict[str, Label] = {}  # by the id of the name on the polygon
     own = {v.symbol for v in detail.vectors}
-    shifts = side_by_side(v.scaled(detail.factor) for v in detail.vectors)
+    shifts = polygon.side_by_side(v.scaled(detail.factor) for v in detail.vectors)
     for _, vector in here.in_order:
         kind = RESULTANT if vector.role == "resultant" else COMPONENT
         colour = here.colours[vector.symbol]
@@ -196,14 +175,14 @@ def _detail_inset(
         assert isinstance(point.mark, complex)
         spot = inner.centre + detail.factor * (point.mark - here.at(detail.centre))
         if inner.distance(spot) == 0.0:
-            parts.append(Circle(spot, END_RADIUS, fill=strokes.BLACK))
+            parts.append(Circle(spot, polygon.END_RADIUS, fill=strokes.BLACK))
             id = f"label-detail-{point.text.id.removeprefix('label-')}"
             name = point.text._replace(id=id, step=detail.crowd, since=here.since(detail))
             names[point.text.id] = Label(name, spot, point.toward, rank=1)
     enlarged = term("detail", here.language, scale=f"{detail.factor:g}")
     words = f"{roman(number)}: {enlarged}", f"{roman(number)} ({detail.factor:g} : 1)"
     id, classes = f"detail-{here.diagram}-{number}", ("inset", "detail")
-    drawn = _inset(box, here.diagram, parts, words, NUMERAL, id, classes, step=detail.crowd)
+    drawn = _inset(box, here.diagram, parts, words, polygon.NUMERAL, id, classes, step=detail.crowd)
     named = with_labels(dated(replace(drawn, labels=tuple(names.values())), here.since(detail)), inner)
     written = {text.id for text in named.layers["labels"] if isinstance(text, Text)}
     return named, {id for id, name in names.items() if name.text.id in written}
@@ -348,10 +327,14 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box
     return with_labels(dated(replace(piece, labels=tuple(names)), max(drawn, default=None)), inner)
 
 
-def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Notation, row: Box) -> Piece:
-    """Insets of Coriolis terms side by side in a row, up to the last that fits."""
-    boxes = inset_boxes(row, min(len(terms), per_row(row.width)))
-    return joined(coriolis_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
+def coriolis_rows(
+    sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Notation, room: Box, gap: float
+) -> tuple[Piece, Sequence[CoriolisTerm]]:
+    """Insets of Coriolis terms in rows, ``gap`` mm apart, from the top of a room, and the terms without room there."""
+    rows = max(0, int((room.height + ROUNDING + gap) // (INSET[1] + gap)))
+    boxes = inset_boxes(room, min(len(terms), rows * per_row(room.width)), gap)
+    drawn = joined(coriolis_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
+    return drawn, terms[len(boxes) :]
 
 
 def per_row(width: float) -> int:
@@ -359,18 +342,11 @@ def per_row(width: float) -> int:
     return max(1, int((width + GUTTER) // (INSET[0] + GUTTER)))
 
 
-def inset_boxes(strip: Box, count: int) -> list[Box]:
-    """``count`` boxes of insets in rows from the upper left corner of a strip."""
-    many = per_row(strip.width)
-    corners = [
-        (strip.left + (i % many) * (INSET[0] + GUTTER), strip.top + (i // many) * (INSET[1] + GUTTER))
-        for i in range(count)
-    ]
+def inset_boxes(strip: Box, count: int, gap: float = GUTTER) -> list[Box]:
+    """``count`` boxes of insets in rows, ``gap`` mm apart, from the upper left corner of a strip."""
+    places = (divmod(i, per_row(strip.width)) for i in range(count))
+    corners = ((strip.left + k * (INSET[0] + GUTTER), strip.top + row * (INSET[1] + gap)) for row, k in places)
     return [Box(x, y, x + INSET[0], y + INSET[1]) for x, y in corners]
-
-
-READ = Stroke(0.3, (1.6, 0.8), "#c2006b")
-OFF = Stroke(0.8, (1.6, 0.8), "#c2006b")
 
 
 def _laid(picture: PlacedPicture, mm: float, origin: complex, panel: Box) -> Scan:
@@ -393,9 +369,9 @@ def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) 
             if ends is None:
                 continue
             wrong = line is judged.off
-            drawn: tuple[Primitive, ...] = (Line(*ends, OFF if wrong else READ),)
+            drawn: tuple[Primitive, ...] = (Line(*ends, strokes.READ_OFF if wrong else strokes.READ),)
             if wrong:
-                at = (ends[0] + ends[1]) / 2 + 1.2 - 1.2j
-                drawn += (Text(at, plain(line.name, 3.0), "start", OFF.colour, classes=("label", "off")),)
+                at, name = (ends[0] + ends[1]) / 2 + 1.2 - 1.2j, plain(line.name, 3.0)
+                drawn += (Text(at, name, "start", strokes.READ_OFF.colour, classes=("label", "off")),)
             lines.append(Group(drawn, id=f"read-{line.name.replace('/', '-').replace('@', '')}", classes=("read",)))
     return Piece({"background": tuple(under), "answers": tuple(lines)} if under or lines else {})

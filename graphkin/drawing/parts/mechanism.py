@@ -32,22 +32,10 @@ from graphkin.drawing.ink.primitives import (
     page_direction,
 )
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
+from graphkin.drawing.parts import touching
 from graphkin.drawing.parts.dimensioning import drawn_lengths
 from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, LinkShape, MechanismOnPaper
 from graphkin.drawing.parts.polygon import same_place
-from graphkin.drawing.parts.touching import (
-    FLAT,
-    beside_face_of_frame,
-    block_on_circle,
-    cams_alone,
-    circular_slots,
-    contact_marks,
-    faces_of_frame,
-    outlines_of,
-    profiles,
-    wheels_of,
-    within_round_body,
-)
 from graphkin.drawing.place.labels import Label, Mark, mapped
 from graphkin.drawing.place.obstacles import clearest_arc
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
@@ -63,8 +51,8 @@ def links(here: MechanismOnPaper) -> Piece:
     """All links, areas first, so that feet of pivots stand on them and bars lie over them."""
     areas = [_link(here, shape) for shape in here.shapes if shape.corners]
     bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
-    drawn = (*profiles(here), *areas, _frame(here), *circular_slots(here), *(_link(here, shape) for shape in bars))
-    return Piece({"mechanism": drawn})
+    under = *touching.profiles(here), *areas, _frame(here), *touching.circular_slots(here)
+    return Piece({"mechanism": (*under, *(_link(here, shape) for shape in bars))})
 
 
 def links_alone(
@@ -72,7 +60,7 @@ def links_alone(
 ) -> tuple[list[Primitive], list[Label]]:
     """Areas and bars of some links cut free, with their numbers as labels of a ``rank``; pairs are left to the caller,
     with ``replaced`` also the contacts that slide on another link's outline."""
-    parts = [] if replaced else cams_alone(here, names)
+    parts = [] if replaced else touching.cams_alone(here, names)
     labels: list[Label] = []
     for shape in here.shapes:
         if shape.link not in names:
@@ -82,7 +70,7 @@ def links_alone(
         if shape.corners:
             parts.append(Polygon(tuple(map(on_page, shape.corners)), strokes.tint(colour), stroke))
         parts += [Line.between(a, b, stroke) for a, b in shape.bars]
-        parts += [*outlines_of(here, shape.link, replaced), *wheels_of(here, shape.link)]
+        parts += touching.outlines_of(here, shape.link, replaced)
         if shape.longest or here.scene.higher_pairs:
             mark = shape.longest or here.sheet.poses[shape.link].origin
             labels.append(Label.of(plain(shape.link, bold=True), mapped(mark, on_page), colour=colour, rank=rank))
@@ -109,7 +97,7 @@ def _frame(here: MechanismOnPaper) -> Group:
             parts += symbols.guide(on_page(b.at), phase(b.along), GUIDE_LENGTH, symbols.SLOT_WIDTH)
         elif here.ground in (b.slide.a, b.slide.b):
             parts += symbols.guide(on_page(b.at), phase(b.along), GUIDE_LENGTH)
-    parts += [*outlines_of(here, here.ground), *wheels_of(here, here.ground), *faces_of_frame(here)]
+    parts += [*touching.outlines_of(here, here.ground), *touching.faces_of_frame(here)]
     return Group(tuple(parts), id=f"link-{here.ground}", classes=("frame",), since=here.since(here.ground))
 
 
@@ -121,7 +109,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
         corners = tuple(map(on_page, shape.corners))
         clear = shape.redundant or here.scene.question.background is not None  # what a scan shows is seen through it
         parts.append(Polygon(corners, "" if clear else strokes.tint(colour), stroke))
-    parts += [*outlines_of(here, shape.link), *wheels_of(here, shape.link)]
+    parts += touching.outlines_of(here, shape.link)
     barrels = [b for b in here.sliders if b.slide.b == shape.link and b.slide.key in here.cylinders]
     if not barrels:
         parts += [Line.between(start, end, stroke) for start, end in shape.bars]
@@ -131,7 +119,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
         parts += symbols.slot(on_page(start), on_page(end), colour)
-    parts += block_on_circle(here, shape.link)
+    parts += touching.block_on_circle(here, shape.link)
     for b in barrels:
         parts += symbols.cylinder(on_page(here.pivot(b)), on_page(b.at), colour)
     for b in (slider for slider in here.sliders if slider.slide.a == shape.link):
@@ -234,7 +222,7 @@ def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
     for link, longest in ((shape.link, shape.longest) for shape in here.shapes):
         whole = _cylinder_part(here, link) or longest
         block = next((b.at for b in here.sliders if b.slide.a == link), None)
-        mark = whole or (within_round_body(here, link) if block is None else block)
+        mark = whole or (touching.within_round_body(here, link) if block is None else block)
         if mark is not None:
             yield _number(here, link, mark)
 
@@ -262,7 +250,7 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
             # a block that stands for a cam slides along the face of its follower
             face = next((touch.point for touch in here.touching.cams if touch.cam.flat
                          and touch.cam.follower == b.slide.b and b.slide.key in here.replaced_pairs), None)  # fmt: skip
-            start, edge = (b.at, edge) if face is None else (face, FLAT)
+            start, edge = (b.at, edge) if face is None else (face, touching.FLAT)
             letter = rich(here.letters.guide(name, here.ground), 3.0)
             ends = on_page(start), on_page(start + edge * b.along)
             inside = panel.grown(-0.5).clip(*ends) if panel is not None else ends
@@ -277,7 +265,7 @@ def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
         foot = next(iter(here.feet.values()), None)
         away = 3.6j if foot is None else complex(math.cos(foot), math.sin(foot)) * 5
         yield _number(here, here.ground, spots[0] + away, phase(away))
-    elif (face := beside_face_of_frame(here)) is not None:
+    elif (face := touching.beside_face_of_frame(here)) is not None:
         at, into = face
         yield _number(here, here.ground, at, phase(into))
 
@@ -295,8 +283,8 @@ def mechanism_piece(sheet: Sheet, letters: Notation, room: tuple[float, float] |
     strokes far beyond its points are cut at the edge of the room.
     """
     here = MechanismOnPaper(sheet, letters)
-    placed = contact_marks(here), links(here), _springs(here), compass_arcs(here), trial_marks_in_mechanism(sheet)
-    bare = joined((*placed, joints(here), rate_arrows(here)))
+    marks, trials = touching.contact_marks(here), trial_marks_in_mechanism(sheet)
+    bare = joined((marks, links(here), _springs(here), compass_arcs(here), trials, joints(here), rate_arrows(here)))
     around = ink_box(bare.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     if room is None or _fits(around, room):
         piece = _with_lengths(here, bare, None, room)

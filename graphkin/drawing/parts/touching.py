@@ -33,8 +33,13 @@ IN_BODY = 0.6  # of its radius: how far from the centre of a round body, or the 
 
 
 def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> list[Primitive]:
-    """The round outlines of a link; hollow ones, and those of the frame, are hatched on the side of the body.  With
-    ``replaced`` only rolling ones: bars and blocks replace the others."""
+    """The round outlines of a link, then its pitch circles if it is a wheel, its pitch lines if it is a rack; hollow
+    outlines, and those of the frame, are hatched on the side of the body.  With ``replaced`` only rolling outlines:
+    bars and blocks replace the others."""
+    return [*_discs(here, link, replaced), *_wheels(here, link)]
+
+
+def _discs(here: MechanismOnPaper, link: str, replaced: bool) -> list[Primitive]:
     if link not in here.sheet.poses:
         return []
     rolling = {name for contact in here.scene.contacts if contact.rolling
@@ -66,8 +71,7 @@ def _ring(centre: complex, radius: float, outside: bool, colour: str) -> Iterato
         yield Line.between(foot, foot + away * way * complex(1, 0.8), strokes.HATCHING.coloured(colour))
 
 
-def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
-    """The pitch circles of a link that is a wheel, its pitch lines if it is a rack."""
+def _wheels(here: MechanismOnPaper, link: str) -> list[Primitive]:
     links, colour = here.touching, here.colour(link)
     parts: list[Primitive] = []
     for wheel, centre, radius in links.pitch_circles():

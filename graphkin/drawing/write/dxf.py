@@ -19,19 +19,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.drawing.ink.primitives import (
-    Arc,
-    Circle,
-    Group,
-    Line,
-    Page,
-    Polygon,
-    Polyline,
-    Primitive,
-    Scan,
-    Stroke,
-    Text,
-)
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Page, Polygon, Primitive, Scan, Stroke, Text
+from graphkin.drawing.ink.symbols import Shape
 from graphkin.drawing.text import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
@@ -129,7 +118,7 @@ class _Board:
     def _at(self, z: complex) -> tuple[float, float]:
         return round(z.real, 6), round(self.height - z.imag, 6)
 
-    def _shape(self, thing: Line | Polyline | Polygon | Circle | Arc, layer: str) -> list[DXFGraphic]:
+    def _shape(self, thing: Shape, layer: str) -> list[DXFGraphic]:
         made = []
         fill = thing.fill if isinstance(thing, Polygon | Circle) else ""
         if fill and fill.lower() not in WHITE:
@@ -149,7 +138,7 @@ class _Board:
             made.append(self.space.add_lwpolyline(list(map(self._at, thing.points)), close=closed, dxfattribs=look))
         return made
 
-    def _filled(self, thing: Line | Polyline | Polygon | Circle | Arc, fill: str, layer: str) -> DXFGraphic:
+    def _filled(self, thing: Shape, fill: str, layer: str) -> DXFGraphic:
         look = {"layer": layer, "true_color": _colour(fill)}
         if isinstance(thing, Polygon) and len(thing.points) in (3, 4):
             corners = list(map(self._at, thing.points))
