@@ -66,15 +66,6 @@ def _face(style: Style) -> tuple[TTFont, Mapping[int, str]]:
     return font, font.getBestCmap()
 
 
-def _own_glyph(code: int, style: Style) -> Glyph | None:
-    with READING:
-        font, names = _face(style)
-        if (name := names.get(code)) is None:
-            return None
-        outlines = font["glyf"]
-        return Glyph(font["hmtx"][name][0], outlines.glyphs[name].compile(outlines, recalcBBoxes=False))
-
-
 @lru_cache(maxsize=4096)
 def holds(text: str) -> bool:
     """Whether the family has all Chinese characters of a text."""
@@ -87,10 +78,16 @@ def holds(text: str) -> bool:
 
 @lru_cache(maxsize=8192)
 def glyph(character: str, style: Style = "regular") -> Glyph | None:
-    """A glyph of the family; for a Chinese character that it lacks a glyph from a face of this machine, None without
-    such a face."""
-    own = _own_glyph(ord(character), style) or _own_glyph(ord(character), "regular")
-    return machine_glyph(character) if own is None and ord(character) > 0x2E7F else own
+    """A glyph of the family, upright where the style lacks it; for a Chinese character that it lacks a glyph from a
+    face of this machine, None without such a face."""
+    code = ord(character)
+    with READING:
+        for face in (style, "regular"):
+            font, names = _face(face)
+            if (name := names.get(code)) is not None:
+                outlines = font["glyf"]
+                return Glyph(font["hmtx"][name][0], outlines.glyphs[name].compile(outlines, recalcBBoxes=False))
+    return machine_glyph(character) if code > 0x2E7F else None
 
 
 def held(style: Style, characters: Iterable[str]) -> dict[int, Glyph]:

@@ -254,20 +254,16 @@ def has_cjk(text: str) -> bool:
     return any(map(is_cjk, text))
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=8192)
 def width(text: str, size: float, italic: bool = False, bold: bool = False) -> float:
     """Advance width (mm) of a text set at a size (mm)."""
-    return _length(text, style_of(italic, bold)) * size
-
-
-@lru_cache(maxsize=8192)
-def _length(text: str, style: Style) -> float:
-    """Advance width in sizes."""
-    return added_up(_advance(character, style) for character in text)
+    style = style_of(italic, bold)
+    return added_up(_advance(character, style) for character in text) * size
 
 
 @lru_cache(maxsize=8192)
 def _advance(character: str, style: Style) -> float:
+    """Advance width in sizes."""
     found = glyph(character, style)
     if found is not None:
         return found.advance / EM

@@ -143,9 +143,7 @@ def group_picture(page: FigurePage, stage: ForceStage, tag: str) -> Drawing:
                    str(page.said("force described")[0]), languages(page.language)[0])  # fmt: skip
 
 
-def _pictures(
-    page: FigurePage, stage: ForceStage, names: Counter[str], tag: str = ""
-) -> Iterator[Block]:
+def _pictures(page: FigurePage, stage: ForceStage, names: Counter[str], tag: str = "") -> Iterator[Block]:
     """The sketch of a group beside its polygon, or above its polygons."""
     suffix = ("-with" if stage.again else "") + tag
     polygons = _polygons(stage.group)

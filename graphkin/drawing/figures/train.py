@@ -105,10 +105,8 @@ def _train(page: FigurePage, plan: TrainPlan, k: int, steps: Steps) -> Block:
     ink = ink_box(seen.drawn)
     velocities = _velocities(page, plan, k, steps, (ink.right if ink else 0.0) - x)
     whole = joined((seen, moved_piece(velocities, complex(x, 0.0))))
-    return page.panel(
-        max(heights) - min(heights) + 2 * ROOM,
-        lambda room: with_labels(moved_piece(whole, complex(0.0, ROOM + max(heights))), room.grown(2.0)),
-    )
+    lowered = moved_piece(whole, complex(0.0, ROOM + max(heights)))
+    return page.panel(max(heights) - min(heights) + 2 * ROOM, lambda room: with_labels(lowered, room.grown(2.0)))
 
 
 def _velocities(page: FigurePage, plan: TrainPlan, k: int, steps: Steps, start: float) -> Piece:
@@ -134,9 +132,8 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, steps: Steps, start: 
             shapes = arrow(on_page(foot), on_page(tip), COMPONENT)
             plate.put(plan.order, *shapes, id=f"plan-{spot.name}{tag}", classes=("speed",), step=first.get(spot.name))
         plate.put("construction", Circle(on_page(tip), 0.5, strokes.BLACK), step=first.get(spot.name))
-        names.setdefault(round(h, 3), {})[spot.name] = (
-            sign(spot.name) if spot.rolls else page.letters.point(spot.name)
-        )
+        letters = sign(spot.name) if spot.rolls else page.letters.point(spot.name)
+        names.setdefault(round(h, 3), {})[spot.name] = letters
     for h, some in names.items():
         words = rich(spaced(", ", dict.fromkeys(some.values())), 3.0)
         plate.name(words, complex(0.0, h), f"label-plan-{'-'.join(some)}{tag}", rank=1)

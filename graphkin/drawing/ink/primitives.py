@@ -211,8 +211,7 @@ class Group(NamedTuple):
     def moved(self, by: complex) -> Group:
         """The group with all that it holds."""
         motion = self.motion and replace(self.motion, about=self.motion.about + by)
-        inside = moved(self.children, by)
-        return Group(inside, self.id, self.classes, self.layer, self.title, self.step, motion, self.since)
+        return self._replace(children=moved(self.children, by), motion=motion)
 
 
 Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Scan | Group
@@ -248,16 +247,12 @@ def walk(children: Iterable[Primitive]) -> list[Primitive]:
     return found
 
 
-def map_tree(
-    children: Iterable[Primitive], change: Callable[[Primitive], Primitive | None]
-) -> tuple[Primitive, ...]:
+def map_tree(children: Iterable[Primitive], change: Callable[[Primitive], Primitive | None]) -> tuple[Primitive, ...]:
     """The primitives, each changed, or left out where ``change`` gives None; groups after their children."""
     found: list[Primitive] = []
     for thing in children:
         if isinstance(thing, Group):
-            inside = map_tree(thing.children, change)
-            words = thing.id, thing.classes, thing.layer, thing.title
-            thing = Group(inside, *words, thing.step, thing.motion, thing.since)
+            thing = thing._replace(children=map_tree(thing.children, change))
         changed = change(thing)
         if changed is not None:
             found.append(changed)

@@ -250,9 +250,7 @@ class Placement:
         others = iter(met.T[some].nonzero()[1].tolist())
         return places[some], [[*islice(others, count)] for count in crowd[some].tolist()]
 
-    def _room(
-        self, i: int, some: Sequence[int], offers: Indices, least: float
-    ) -> tuple[Indices, dict[int, slice]]:
+    def _room(self, i: int, some: Sequence[int], offers: Indices, least: float) -> tuple[Indices, dict[int, slice]]:
         """Places of some labels that only labels to be moved obstruct, the cheapest first; and those of each label.
 
         Places too costly for the labels' savings are left out, if all are to cost less than ``least``.
