@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import json
 import math
+import os
+import subprocess
 import sys
 import xml.etree.ElementTree as ET
 
@@ -100,6 +102,14 @@ def test_a_chinese_text_is_as_long_as_in_the_svg():
 def test_the_same_drawing_has_the_same_bytes():
     page = Drawing(10.0, 10.0, (Line(1 + 1j, 4 + 5j, Stroke(0.2, (3.0, 1.0))),))
     assert page.content("dxf") == Drawing(10.0, 10.0, page.children).content("dxf")
+
+
+def test_the_same_drawing_has_the_same_bytes_in_every_process():
+    page = "Drawing(9.0, 9.0, (Line(1 + 1j, 4 + 5j, Stroke(0.2)),))"
+    code = f"import sys; from graphkin.drawing import *; sys.stdout.buffer.write({page}.content('dxf'))"
+    run = [sys.executable, "-c", code]
+    seeded = ({**os.environ, "PYTHONHASHSEED": seed} for seed in "04")
+    assert 1 == len({subprocess.run(run, env=env, capture_output=True, check=True).stdout for env in seeded})
 
 
 def test_without_the_extra_it_is_said_how_to_have_it(monkeypatch):

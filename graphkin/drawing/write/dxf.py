@@ -78,6 +78,8 @@ def _document(put: Callable[[DxfFile], None]) -> bytes:
         try:
             document = ezdxf.new("R2010", units=units.MM)
             put(document)
+            for name in sorted(document.entitydb.dxf_types_in_use()):  # ezdxf would take them in the order of a set
+                document.classes.add_class(name)
             out = StringIO()
             document.write(out)
         finally:
