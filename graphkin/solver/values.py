@@ -28,6 +28,7 @@ from graphkin.solver.algebra.pose import Array, Pose, aimed
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
 from graphkin.solver.path.driver_range import DriverRange, extremes, range_of
+from graphkin.solver.quantities import value_of_symbol
 from graphkin.structure import Structure, kept_with, links_for, part_of
 from graphkin.words import Phrase, Wording, listed, say
 
@@ -44,7 +45,7 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
     CallError : a symbol names nothing here
     Unsolvable : a quantity of the whole turn without a whole turn, a force at a dead point
     """
-    values = dict[Symbol, Value]()
+    posed, values = motion.posed, dict[Symbol, Value]()
     for symbol, scope in {symbol: symbol.scope for symbol in symbols}.items():
         if scope == "turn":
             values[symbol] = _of_turn(motion, symbol)
@@ -58,6 +59,8 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
 
                 exact = value_of(motion, symbol)[0]
             else:
+                exact = value_of_symbol(posed, symbol)[0]
+            if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
                 exact = motion.value(symbol)[0]
             values[symbol] = complex(exact) if np.iscomplexobj(exact) else float(exact)
     return values

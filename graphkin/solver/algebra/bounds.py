@@ -19,7 +19,7 @@ import numpy as np
 from graphkin.solver.algebra.constraints import Constraints, Layout, Parts, led_relation, product, solve_all
 from graphkin.solver.algebra.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
 from graphkin.solver.drivers import conversion_error, law_doubts, meant, meant_angle
-from graphkin.structure import Structure, kept_with
+from graphkin.structure import Structure
 
 FEW = 4
 """The roundings of a sum of products."""
@@ -69,11 +69,10 @@ def error_bounds(
         _follow(system, all_, slack, matrices, residuals, rows)
         residuals[:, refined] = 0.0
         rows += np.abs(residuals)
-        sizes = _sizes(matrices, _reached(structure, system.layout))
+        hanging, reached, _ = _of_form(system)
+        sizes = _sizes(matrices, reached)
         terms = sizes @ np.moveaxis(rows, 0, 2)
         error = terms[0][..., 0]
-        # 1 where a coordinate may pass an error on to another, else 0, shape (columns, columns)
-        hanging = np.kron(_depending(structure, names), np.ones((3, 3)))
         wild, grown = _growth(sizes[0], _changes(system, parts, error), error, hanging)
         errors = error, terms[0][..., 1] + terms[1][..., 0], terms[0][..., 2] + 2 * terms[1][..., 1] + terms[2][..., 0]
         found: list[Array] = []
@@ -225,7 +224,18 @@ def _sizes(matrices: Sequence[Array], reached: Array) -> Array:
     return np.asarray(np.nan_to_num(np.abs(rates), nan=VAST, posinf=VAST))
 
 
-@kept_with
+def _of_form(system: Constraints) -> tuple[Array, Array, Sequence[Array]]:
+    """Of all links together, made once: 1 where a coordinate may pass an error on to another, else 0, shape (columns,
+    columns); the entries of the inverse that may differ from zero; the errors of the file's numbers."""
+    structure, layout = system.structure, system.layout
+    if "bounds" not in structure.kept:
+        depending = _depending(structure, layout.names[: layout.members])
+        hanging, reached = np.kron(depending, np.ones((3, 3))), _reached(layout, depending)
+        structure.kept["bounds"] = hanging, reached, _written(layout)
+    known: tuple[Array, Array, Sequence[Array]] = structure.kept["bounds"]
+    return known
+
+
 def _depending(structure: Structure, names: tuple[str, ...]) -> Array:
     """Whether each link depends on each, as on itself and on its group, bool, shape (links, links): near a dead point
     of a group the links before it stay certain.  A rolling link may depend on later links."""
@@ -236,15 +246,13 @@ def _depending(structure: Structure, names: tuple[str, ...]) -> Array:
     return np.array([[other in before[name] for other in names] for name in names])
 
 
-@kept_with
-def _reached(structure: Structure, layout: Layout) -> Array:
+def _reached(layout: Layout, depending: Array) -> Array:
     """The entries of the inverse that may differ from zero: only constraints between links on which a link depends move
     it, shape (columns, rows)."""
     taking = layout.constant != 0
     taking.flat[layout.entries.entries] = True
     taking = taking.reshape(layout.rows, -1, 3).any(axis=2)
-    away = ~_depending(structure, layout.names[: layout.members])
-    return np.repeat(~(away.astype(int) @ taking.T.astype(int)).astype(bool), 3, axis=0)
+    return np.repeat(~((~depending).astype(int) @ taking.T.astype(int)).astype(bool), 3, axis=0)
 
 
 def _changes(system: Constraints, parts: Parts, error: Array) -> Array:
@@ -325,8 +333,7 @@ def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_err
     return [error + doubt for error, doubt in zip(found, by_laws, strict=True)]
 
 
-@kept_with
-def _written(structure: Structure, layout: Layout) -> Sequence[Array]:
+def _written(layout: Layout) -> Sequence[Array]:
     """The errors of the file's numbers in 16 digits and in 50: of the places of each joint, shape (2, 2, joints), of
     the direction of each line and of each turn, shape (2, numbers)."""
     def errors(numbers: Iterable[tuple[complex, bool]]) -> Array:
@@ -351,7 +358,7 @@ def _row_errors(
     layout, which = system.layout, refined.astype(int)
     unit = np.where(refined, 0.0, UNIT)[:, None]
     lean = np.abs(np.abs(all_.u) - 1) * (unit > 0)
-    places, directed, turning = (written[which] for written in _written(system.structure, layout))
+    places, directed, turning = (written[which] for written in _of_form(system)[2])
     rates = np.abs(all_.omega), np.abs(all_.alpha)
     spins = np.ones_like(lean), rates[0], rates[1] + rates[0] ** 2
     own = np.abs(layout.places) * (lean[:, layout.joints] + FEW * unit[:, None]) + 1.5 * places

@@ -342,8 +342,12 @@ class _Run:
         program, mode = self.dimensioned.program, np.broadcast_to(self.modes[i], (self.n, 2 * len(rolled.factors)))
         asked: list[Real | Vec] = []
         for (kind, name), _ in rolled.factors:
-            turning = kind == "angle"
-            asked.append(program.poses[name].u if turning else program.posed.travel(self.structure.slide(name)))
+            if kind == "angle":
+                asked.append(program.poses[name].u)
+            else:
+                slide = self.structure.slide(name)
+                guide = program.guide(slide)
+                asked.append(((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real)
         value = np.full(self.n, rolled.start)
         wide = np.abs(value) + 1.0 * rolled.turns
         for k, (found, (_, factor)) in enumerate(zip(self._values(("rolled", i), asked), rolled.factors, strict=True)):

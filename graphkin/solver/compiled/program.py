@@ -17,7 +17,6 @@ from graphkin.solver.algebra.dyads import DyadSolution, Joints, PoseFormula, sol
 from graphkin.solver.algebra.expressions import Code, ExpressionGraph, Name, Real, Vec, components
 from graphkin.solver.algebra.pose import GIVEN, Pose
 from graphkin.solver.drivers import meant_vector
-from graphkin.solver.quantities import Posed
 from graphkin.structure import Body, Driven, Dyad, LargerGroup, RollingRelation, Structure, kept_with
 from graphkin.structure.model import Coordinate
 
@@ -40,7 +39,6 @@ class Program:
         self._numbers = _numbers(structure)
         self.poses: dict[str, PoseFormula] = {structure.scene.frame.name: self.at_rest(0j, 1 + 0j)}
         self.groups: dict[int, DyadSolution[Vec, Real]] = {}
-        self.posed = Posed(structure, self.poses, structure.slides, self.number)
         for i, element in enumerate(structure.elements):
             self._add(i, element)
         self._codes: dict[Hashable, Code] = {}
@@ -70,6 +68,10 @@ class Program:
         if link == pair.a:
             return self.at_rest(0j, self.number("turn", pair.key).conjugate())
         return self.at_rest(self.number("through", pair.key), self.number("direction", pair.key))
+
+    def guide(self, slide: Pair) -> PoseFormula:
+        """The guide of a sliding pair in the world."""
+        return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
 
     def _rates(self, driver: Driver) -> tuple[Real, Real]:
         k = self.structure.drivers.index(driver)
@@ -112,7 +114,8 @@ class Program:
         kind, name = coordinate
         if kind == "angle":
             return self.poses[name].omega, self.poses[name].alpha
-        seen = self.posed.sliding(self.structure.slide(name))
+        slide = self.structure.slide(name)
+        seen = self.guide(slide).inverse().of(self.poses[slide.a])
         return seen.v.real, seen.a.real
 
     # elements
@@ -303,7 +306,6 @@ _PROGRAMS: dict[Hashable, Program] = {}
 MOST = 200
 
 
-@kept_with
 def program_of(
     structure: Structure, moving: tuple[bool, ...], open_: frozenset[Name] = frozenset()
 ) -> DimensionedProgram:
@@ -314,10 +316,19 @@ def program_of(
     moving : for each driver whether it has a second rate
     open_ : numbers by name that stay open even if they are 0, 1 or -1
     """
+    key = "program", moving, open_
+    if key not in structure.kept:
+        structure.kept[key] = DimensionedProgram(_program(structure, moving, open_), structure)
+    known: DimensionedProgram = structure.kept[key]
+    return known
+
+
+def _program(structure: Structure, moving: tuple[bool, ...], open_: frozenset[Name]) -> Program:
+    """The program of the form of a structure, made anew if it is none of the latest."""
     form = _form(structure, open_), moving
     program = _PROGRAMS.pop(form, None) or Program(structure, moving, open_)
     _PROGRAMS[form] = program
     while len(_PROGRAMS) > MOST:
         with suppress(RuntimeError, StopIteration):  # another thread may be at the same
             _PROGRAMS.pop(next(iter(_PROGRAMS)), None)
-    return DimensionedProgram(program, structure)
+    return program
