@@ -89,21 +89,18 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
     with np.errstate(all="ignore"):
         if cam.flat:
             assert isinstance(motion, SlidingFollower)
-            normal = way
+            normal, leaning, leaning_rate = way, 0.0 * s1, 0.0 * s1
             contact = motion.along * (cam.base + s0 - 1j * s1)
-            radius = cam.base + s0 + s2
-        else:
-            normal = 1j * tangent / np.abs(tangent)
-            contact = point - cam.roller * normal
-            radius = -(np.abs(tangent) ** 3) / cross(tangent, tangent_rate) - cam.roller
-        if cam.flat:
-            leaning_rate, radius_rate = 0.0 * s1, s1 + sense * np.asarray(lift.jerk)
+            radius, radius_rate = cam.base + s0 + s2, s1 + sense * np.asarray(lift.jerk)
         else:
             size, turn = np.abs(tangent), cross(tangent, tangent_rate)
+            normal = 1j * tangent / size
+            contact = point - cam.roller * normal
+            radius = -(size**3) / turn - cam.roller
+            leaning = np.angle(normal * np.conj(way))
             leaning_rate = turn / size**2 + 1.0 - course.turning
             along = 3.0 * size * dot(tangent, tangent_rate)
             radius_rate = (size**3 * cross(tangent, course.jerk) - along * turn) / turn**2
-    leaning = 0.0 * s1 if cam.flat else np.angle(normal * np.conj(way))
     columns = (s0, lift.slope, u, point, normal, contact, way, radius, leaning, leaning_rate, radius_rate)
     return CamAt(*map(np.asarray, columns))
 
@@ -254,10 +251,9 @@ def _pressures(cam: LawCam) -> tuple[AtDegree | None, AtDegree | None]:
 
 
 def _judged(cam: LawCam, rise: AtDegree | None, fall: AtDegree | None) -> tuple[bool | None, bool | None]:
-    judged: list[bool | None] = []
-    for most, allowed in zip((rise, fall), cam.allowed, strict=True):
-        judged.append(None if allowed is None or most is None else most.value <= allowed * (1 + SAME))
-    return judged[0], judged[1]
+    rising, falling = (None if allowed is None or most is None else most.value <= allowed * (1 + SAME)
+                       for most, allowed in zip((rise, fall), cam.allowed, strict=True))  # fmt: skip
+    return rising, falling
 
 
 NEAREST = 1e-7

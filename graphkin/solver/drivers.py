@@ -91,16 +91,14 @@ class UniformGrid:
         """Cosines and sines, exact at quarter turns; of many each as the product of a coarse and a fine turn: two
         roundings more."""
         n = len(self)
-        begin, end = self.start + self.step * self.first, self.start + self.step * (self.last - 1)
         if n < MANY:
-            values = self.values
-            c, s = np.cos(values), np.sin(values)
-        else:
-            fine = 1 << (n.bit_length() + 1) // 2
-            coarse, inner = begin + self.step * np.arange(0, n, fine), self.step * np.arange(fine)
-            u = np.multiply.outer(np.cos(coarse) + 1j * np.sin(coarse), np.cos(inner) + 1j * np.sin(inner))
-            flat = u.reshape(-1)[:n]
-            c, s = np.ascontiguousarray(flat.real), np.ascontiguousarray(flat.imag)
+            return GivenValues(self.values).turn
+        begin, end = self.start + self.step * self.first, self.start + self.step * (self.last - 1)
+        fine = 1 << (n.bit_length() + 1) // 2
+        coarse, inner = begin + self.step * np.arange(0, n, fine), self.step * np.arange(fine)
+        u = np.multiply.outer(np.cos(coarse) + 1j * np.sin(coarse), np.cos(inner) + 1j * np.sin(inner))
+        flat = u.reshape(-1)[:n]
+        c, s = np.ascontiguousarray(flat.real), np.ascontiguousarray(flat.imag)
         low, high = min(begin, end) / HALF_PI, max(begin, end) / HALF_PI
         for m in range(math.ceil(low - 1e-6), math.floor(high + 1e-6) + 1):
             k = round((m * HALF_PI - begin) / self.step) if self.step else 0

@@ -119,14 +119,8 @@ def pole_path(motion: Motion, pair: LinkPair) -> NDArray[np.complex128]:
 
 def branches(places: NDArray[np.complex128], joined: NDArray[np.bool_]) -> list[list[complex]]:
     """The places in runs that a pen draws without lifting; the end of a turn joins its start."""
-    runs: list[list[complex]] = []
-    run: list[complex] = []
-    for i, z in enumerate(places.tolist()):
-        if np.isfinite(z):
-            run.append(z)
-        if (i == len(places) - 1 or not joined[i]) and run:
-            runs.append(run)
-            run = []
+    pieces = np.split(places, np.flatnonzero(~joined) + 1)
+    runs = [run for run in (piece[np.isfinite(piece)].tolist() for piece in pieces) if run]
     if len(places) and np.isfinite(places[0]) and np.isfinite(places[-1]) and joined[0] and joined[-1]:
         step = abs(places[1] - places[0]) + abs(places[-1] - places[-2])
         if abs(places[0] - places[-1]) <= step:

@@ -29,7 +29,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange
 from graphkin.study.charts import lettered, number
-from graphkin.study.quantities import course_of
+from graphkin.study.quantities import course_of, link_quantities, slide_quantities
 from graphkin.table import Column, Table
 from graphkin.words import Phrase, listed, rich_text, say, word
 from graphkin.words.symbols import Words, sign, spaced
@@ -119,10 +119,9 @@ def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Symbol, ...]]:
     """Position, rate and second rate of each link, of each sliding pair (on the frame with rates, those of its pin
     along the guide), and of each point along both axes."""
     for link in scene.links:
-        yield tuple(Symbol(kind, link=link.name) for kind in ("theta", "omega", "alpha"))
+        yield link_quantities(link.name)
     for pair in scene.slidings:
-        kinds = "sva" if pair.b == scene.frame.name and pair.pin else "s"
-        yield tuple(Symbol(kind, link=pair.a, other=pair.b) for kind in kinds)
+        yield slide_quantities(pair.key)[: 3 if pair.b == scene.frame.name and pair.pin else 1]
     for point in map(PointRef, scene.holders):
         for axis in ("x", "y"):
             yield Symbol(axis, point), *(Symbol(kind, point, axis=axis) for kind in "va")
@@ -143,11 +142,7 @@ def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbo
     subject = Phrase("derivative of name" if way == "derivative" else "integral of name", name=name)
     wanted = k + (1 if way == "derivative" else -1)
     if not 0 <= wanted < len(chain):
-        says = (
-            Phrase("has no further rate here")
-            if way == "derivative"
-            else Phrase("is a position integrate a rate of it")
-        )
+        says = "has no further rate here" if way == "derivative" else "is a position integrate a rate of it"
         raise CallError.of(subject, says, "one of", names=listed([*map(str, chain)]))
     _, rate, second = scene.drivers[0].values
     if rate == 0.0 or second != 0.0:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -88,15 +89,14 @@ def _bound(quantity: Symbol, motion: Motion) -> Array:
 
 def link_quantities(link: str) -> tuple[Symbol, Symbol, Symbol]:
     """Angle, angular velocity and angular acceleration of a link."""
-    angle, rate, second = (Symbol(kind, link=link) for kind in ("theta", "omega", "alpha"))
-    return angle, rate, second
+    return Symbol("theta", link=link), Symbol("omega", link=link), Symbol("alpha", link=link)
 
 
 def slide_quantities(key: str) -> tuple[Symbol, Symbol, Symbol]:
     """Travel, velocity and acceleration of a sliding pair."""
     sliding, _, guiding = key.partition("/")
-    travel, rate, second = (Symbol(kind, link=sliding, other=guiding) for kind in ("s", "v", "a"))
-    return travel, rate, second
+    at = Symbol("s", link=sliding, other=guiding)
+    return at, replace(at, kind="v"), replace(at, kind="a")
 
 
 def rates_of(quantity: Symbol) -> tuple[Symbol, Symbol, Symbol]:

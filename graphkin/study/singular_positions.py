@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -27,7 +27,6 @@ from graphkin.checking.report import COVERAGE
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import EXACT, Scales, execute, pencil, plan
 from graphkin.construction.board.instruments import Instrument
-from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.centres import find_centres
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, cross_arcs
@@ -67,12 +66,13 @@ def _turned(scene: Mechanism, angle: float) -> Mechanism:
     return replace(scene, drivers=(replace(scene.drivers[0], value=float(angle)),))
 
 
-def _exactly_drawn(scene: Mechanism) -> Sheet | None:
-    """The sheet of exact hands; None where the board refuses."""
+def _drawn(scene: Mechanism, rate: Literal["omega", "alpha"], link: str) -> tuple[float, list[str]]:
+    """A rate of a link as exact hands draw it, nan where the board refuses, and the keys of the remarks."""
     try:
-        return execute(plan(scene), EXACT)
+        sheet = execute(plan(scene), EXACT)
     except Unsolvable:
-        return None
+        return math.nan, []
+    return sheet.rates[rate][link].value, [remark.key for remark in sheet.remarks]
 
 
 def _fates(key: str, /, **values: float | None) -> tuple[Phrase, ...]:
@@ -163,19 +163,14 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
         return Answer((max(errors(solver.solve(replace(scene, drivers=(there,))), e)),))
 
     def drawn(e: float) -> Answer:
-        sheet = _exactly_drawn(beside(e))
-        if sheet is None:
-            return Answer((math.nan,))
-        error = abs(sheet.rates["omega"][follower].value / right[e].rates[0] - 1)
-        return Answer((float(error),), any(r.key == "sharp crossing" for r in sheet.remarks))
+        omega, remarks = _drawn(beside(e), "omega", follower)
+        return Answer((float(abs(omega / right[e].rates[0] - 1)),), "sharp crossing" in remarks)
 
     def by_pencil(e: float) -> Answer:
-        what, symbol = plan(beside(e)), Symbol("omega", link=follower)
-        sheet = execute(what, EXACT)
-        deviation = predict(what, "pencil", scene.question.sheet.tools, together=False)[symbol].deviation
-        part = deviation / abs(sheet.rates["omega"][follower].value)
-        warns = any(r.key == "sharp crossing" for r in sheet.remarks)
-        return Answer((part if math.isfinite(part) else math.nan,), warns)
+        omega, remarks = _drawn(beside(e), "omega", follower)
+        predicted = predict(plan(beside(e)), "pencil", scene.question.sheet.tools, together=False)
+        part = predicted[Symbol("omega", link=follower)].deviation / abs(omega)
+        return Answer((part if math.isfinite(part) else math.nan,), "sharp crossing" in remarks)
 
     computed = [ErrorLaw(f"{what} closed form", theory=slope, window=NEARBY)
                 for what, slope in (("place", -0.5), ("velocity", -1.0), ("acceleration", -1.0))]  # fmt: skip
@@ -509,11 +504,8 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
         return Answer((max(alpha / rate**2, FLOOR),), bounds=(bound / rate**2,))
 
     def drawn(e: float) -> Answer:
-        sheet = _exactly_drawn(_turned(scene, -math.pi / 2 + e))
-        if sheet is None:
-            return Answer((math.nan,))
-        second = abs(sheet.rates["alpha"]["3"].value)
-        return Answer((second / rate**2,), any(r.key == "short arm" for r in sheet.remarks))
+        alpha, remarks = _drawn(_turned(scene, -math.pi / 2 + e), "alpha", "3")
+        return Answer((abs(alpha) / rate**2,), "short arm" in remarks)
 
     x = grid(0.5, 1e-9, samples)
     few = x[::samples]
