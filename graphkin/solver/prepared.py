@@ -164,7 +164,8 @@ class PreparedMechanism:
             part_of = np.searchsorted(self._parts[:, 0], offset, "right") - 1
             part_of[offset > np.append(self._parts[:, 1], -np.inf)[part_of]] = -1
             return [(k, np.flatnonzero(part_of == k)) for k in range(len(self._parts))], [], np.flatnonzero(part_of < 0)
-        origin, step = self.range.table_step(steps.n)
+        origin, following = self.range.table_offsets(steps.n, np.arange(2)).tolist()
+        step = following - origin
         for begin, end, part in self._of_table if step else ():
             first = max(last, math.ceil((begin - origin) / step) - steps.first)
             stop = math.floor(min((end - origin) / step, steps.last - 1)) + 1 - steps.first

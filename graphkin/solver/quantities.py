@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, Generic
 
 import numpy as np
@@ -63,17 +62,13 @@ class Posed(Generic[V, R]):
         of contact the link that replaces the contact."""
         scene = self.structure.scene
         if point in scene.holders:
-            return min(scene.holders[point], key=lambda name: self._order.get(name, len(self._order)))
+            placed = [name for name in scene.holders[point] if name in self.structure.links]
+            return min(placed or scene.holders[point], key=lambda name: self.structure.place_of.get(name, -1))
         block = next((name for name, link in self.structure.links.items() if point in link.points), None)
         if block is None:
             known = did_you_mean(point, [*scene.holders, *scene.contact_at])
             raise CallError.of(Phrase("point of point", point=point), "there is no such point", known)
         return block
-
-    @cached_property
-    def _order(self) -> dict[str, int]:
-        order = {name: i for i, e in enumerate(self.structure.elements) for name in e.members}
-        return {**order, self.structure.scene.frame.name: -1}
 
     def is_under(self, ref: PointRef) -> bool:
         """Whether a point is a link's place at another link's pin."""

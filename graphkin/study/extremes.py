@@ -94,10 +94,6 @@ class Traced:
         return next((e for e in own if math.isclose(sense * e.value, most, rel_tol=EQUAL)), None)
 
     @property
-    def greatest(self) -> Extreme | None:
-        return self.furthest(1.0)
-
-    @property
     def least(self) -> Extreme | None:
         return self.furthest(-1.0)
 

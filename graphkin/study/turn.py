@@ -54,19 +54,10 @@ class Output:
         """Whether it moves between limit positions: not for a link that rests, or turns on and on."""
         return self.position.constant is None and not self.turned
 
-    @property
-    def low(self) -> Extreme | None:
-        """The limit position from which it moves the whole stroke to ``high``, the first of ``lows``; None where it
-        does not swing."""
-        return next(iter(self.lows), None)
-
-    @property
-    def high(self) -> Extreme | None:
-        return next(iter(self.highs), None)
-
     @cached_property
     def lows(self) -> tuple[Extreme, ...]:
-        """The limit positions at the least value, by the angle of the crank."""
+        """The limit positions at the least value, by the angle of the crank; from the first of them it moves the whole
+        stroke to the first of ``highs``.  None where it does not swing."""
         return self._limits(-1.0)
 
     @cached_property
@@ -93,7 +84,7 @@ class Output:
         where its value at an end cannot be computed."""
         if self.unbounded or self.not_computed:
             return None
-        return self.high.value - self.low.value if self.low and self.high else None
+        return self.highs[0].value - self.lows[0].value if self.lows and self.highs else None
 
     @property
     def without(

@@ -136,7 +136,7 @@ def test_limit_positions_are_lines_through_all_panels() -> None:
     turn = study_turn(driver_range(mechanism_of("shaper-scheme-2")))
     output = next(o for o in turn.outputs if o.quantity.pair == "6/1")
     page = diagrams(turn, positions=0)["motion-slide-6-1"]
-    right = sorted(np.degrees([output.low.driver, output.high.driver]))
+    right = sorted(np.degrees([output.lows[0].driver, output.highs[0].driver]))
     for axes in page.figure().axes:
         upright = sorted(line.get_xdata()[0] for line in axes.lines if len(set(line.get_xdata())) == 1
                          and len(line.get_xdata()) == 2)

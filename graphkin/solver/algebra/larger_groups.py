@@ -44,10 +44,6 @@ class GroupSolved:
     right_side: Array
 
     @cached_property
-    def _whole(self) -> Array:
-        return np.asarray(np.isfinite(self.matrix).all(axis=(1, 2)))
-
-    @cached_property
     def determinant(self) -> Array:
         """The determinant of the scaled constraints; its sign tells the branch."""
         return np.asarray(np.linalg.det(self.matrix))
@@ -55,10 +51,11 @@ class GroupSolved:
     @cached_property
     def condition(self) -> Array:
         """The condition of the scaled constraints, one over the least singular value: the growth of an error."""
+        known = np.asarray(np.isfinite(self.matrix).all(axis=(1, 2)))
         with np.errstate(all="ignore"):
-            finite = np.asarray(np.where(self._whole[:, None, None], self.matrix, 0.0), dtype=float)
+            finite = np.asarray(np.where(known[:, None, None], self.matrix, 0.0), dtype=float)
             least = np.linalg.svd(finite, compute_uv=False)[:, -1]
-            return np.asarray(np.where(self._whole, 1 / np.maximum(least, 1e-300), np.inf))
+            return np.asarray(np.where(known, 1 / np.maximum(least, 1e-300), np.inf))
 
     def same_assembly(self, place: Array) -> bool:
         """Whether a place nearby (rows, 3) certainly belongs to the same assembly, whatever the rates there: by the

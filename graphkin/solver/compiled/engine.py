@@ -15,7 +15,6 @@ from decimal import Decimal
 
 import numpy as np
 
-from graphkin.scene.model import Driver
 from graphkin.scene.pairs import LawCam
 from graphkin.solver.algebra.bounds import LOOKED_UP, error_bounds, most_of, roughness
 from graphkin.solver.algebra.dyads import DyadSolution
@@ -42,7 +41,6 @@ class ExtendedPrecision:
 
     dimensioned: DimensionedProgram
     code: Code
-    drivers: Sequence[Driver]
     drive: Drive
     signs: Mapping[Name, Array]
 
@@ -98,8 +96,8 @@ class ExtendedPrecision:
     def _numbers(self, k: int, at: Sequence[Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
         """The inputs of the formulas at position ``k``, and the error of each number."""
         given = {name: (Decimal(float(column[k])), Decimal(0)) for name, column in self.signs.items()}
-        by_laws = law_doubts(self.drivers).T.tolist()
-        for j, (driver, doubts) in enumerate(zip(self.drivers, by_laws, strict=True)):
+        drivers = self.dimensioned.structure.drivers
+        for j, (driver, doubts) in enumerate(zip(drivers, law_doubts(drivers).T.tolist(), strict=True)):
             value, first, second = (float(x[k, j]) for x in (self.drive.value, self.drive.rate, self.drive.second))
             number, exact = meant_angle(value) if driver.turns else meant(value)
             if driver.exact and value == driver.values[0]:
@@ -408,8 +406,7 @@ class _Run:
 
     def _extended(self, code: Code) -> ExtendedPrecision:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
-        drivers = self.structure.drivers
-        return ExtendedPrecision(self.dimensioned, code, drivers, self.drive, signs)
+        return ExtendedPrecision(self.dimensioned, code, self.drive, signs)
 
 
 _LOST = np.full(1, np.nan)

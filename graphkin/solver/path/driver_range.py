@@ -261,11 +261,6 @@ class DriverRange:
         low, high = self.ends
         return np.asarray(low + (k + 0.5) / n * (high - low))
 
-    def table_step(self, n: int) -> tuple[float, float]:
-        """The first of the offsets of a table of n, and the step from one to the next."""
-        (low, high), step = self.ends, 2 * math.pi / n
-        return (0.0, step) if self.driver.turns else (low + (high - low) / n / 2, (high - low) / n)
-
     @cached_property
     def clear(self) -> Array:
         """The parts of the range in which every dyad keeps its assembly and stays away from its dead points: the
