@@ -54,8 +54,7 @@ def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
     cams = [(c, *sides) for c in scene.contacts if (sides := _sides(scene, c)) is not None]
     if not cams:
         return ()
-    reach = range_of(structure)
-    return tuple(_measured(reach, *cam) for cam in cams)
+    return tuple(_measured(range_of(structure), *cam) for cam in cams)
 
 
 def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:

@@ -192,8 +192,7 @@ def _least_transmission(AB: float, BC: float, CD: float, AD: float) -> float:
 
 @synthesise.register
 def _(task: GuideBarTask) -> Synthesis:
-    theta = _quick_return(task.K)
-    half = theta / 2.0
+    half = _quick_return(task.K) / 2.0
     AB, CD = task.centres * math.sin(half), task.stroke / (2.0 * math.sin(half))
     ram = CD * (1.0 + math.cos(half)) / 2.0
     sagitta = CD - CD * math.cos(half)

@@ -274,8 +274,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         legend = [(look(stroke), word(key, language)) for stroke, key in entries]
         add_legend(figure, complex(MARGIN, end + 10.0), legend)
         told = rich(say(Phrase("check bar", length="50 mm"), language), 2.5)
-        bar = check_bar(complex(WIDTH - MARGIN - 50.0, end + 16.0), told)
-        add_words(figure, *bar)
+        add_words(figure, *check_bar(complex(WIDTH - MARGIN - 50.0, end + 16.0), told))
 
     return ChartPage(
         WIDTH, end + 22.0, paint, f"{title.plain()}: {scene.question.title_in(language)}",

@@ -541,8 +541,7 @@ class Code:
         for at in self.asked:
             if at not in self.varying:
                 wanted.setdefault(at, len(wanted))
-        order = [at for at in self.order if at not in self.varying]
-        body, names = self._straight(order, {})
+        body, names = self._straight([at for at in self.order if at not in self.varying], {})
         return defined(["def made(p):", *body, _tuple(names.get(at, f"x{at}") for at in wanted)], FLOATS), wanted
 
     @cached_property

@@ -197,8 +197,7 @@ def _apart(structure: Structure, i: int, values: Array, modes: Mapping[int, Arra
         solved = positions(structure, Drive.at_unit_rates(nudged), modes, i + 1, rates=False).groups[i]
         assert isinstance(solved, DyadSolution)
         if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
-            links = group.named
-            return Phrase("have parallel guides that lie apart", links=links)
+            return Phrase("have parallel guides that lie apart", links=group.named)
     return ""
 
 
