@@ -522,9 +522,14 @@ def _weighing(parameter: Array, weight: Array) -> Array:
 
 
 def resolve(
-    curves: Callable[[Array], tuple[Array, Array]], low: float, high: float, periodic: bool = False,
-    floor: Array | float = 0.0, weight: Array | None = None, seams: Array | None = None,
-) -> Pieces:  # fmt: skip
+    curves: Callable[[Array], tuple[Array, Array]],
+    low: float,
+    high: float,
+    periodic: bool = False,
+    floor: Array | float = 0.0,
+    weight: Array | None = None,
+    seams: Array | None = None,
+) -> Pieces:
     """Represent curves to rounding.
 
     Parameters

@@ -123,12 +123,17 @@ def to_json(race: Race) -> dict[str, Json]:
     return {
         "scene": race.scene.name,
         "machine": {"cores": cores, "processor": processor, "versions": dict(versions)},
-        "repeats": race.repeats, "positions": race.count, "places": race.places,
+        "repeats": race.repeats,
+        "positions": race.count,
+        "places": race.places,
         "copying_s": list(race.copying),
         "asked": [str(s) for s in race.asked],
         "methods": [
             {
-                "method": e.key, "tag": e.tag, "family": e.family, "says": _named(e, "en"),
+                "method": e.key,
+                "tag": e.tag,
+                "family": e.family,
+                "says": _named(e, "en"),
                 "velocity": {"cost_s": e.velocity_cost, "error": e.velocity_error},
                 "acceleration": {"cost_s": e.acceleration_cost, "error": e.acceleration_error},
             }

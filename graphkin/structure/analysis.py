@@ -259,9 +259,13 @@ def components(needs: Mapping[N, Sequence[N]]) -> list[tuple[N, ...]]:
 
 
 def _in_order(
-    structure: Structure, nodes: Sequence[Node], unknowns: Sequence[Sequence[Unknown]], given: Mapping[int, Unknown],
-    known: set[str], turned: Mapping[str, TurnedBy],
-) -> tuple[Element, ...]:  # fmt: skip
+    structure: Structure,
+    nodes: Sequence[Node],
+    unknowns: Sequence[Sequence[Unknown]],
+    given: Mapping[int, Unknown],
+    known: set[str],
+    turned: Mapping[str, TurnedBy],
+) -> tuple[Element, ...]:
     """The elements that place some nodes, each after those it needs."""
     rank = _ranks(structure)
 

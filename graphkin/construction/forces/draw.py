@@ -135,13 +135,12 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
     for element in force_groups(cut.drawn):
         cut.per_mm = scales.get(element.links or element.members, common)
         drawn_at |= dict.fromkeys(element.members, cut.per_mm)
-        balances = {driver.key: cut.drawn.balance(driver) for driver in element.drivers}
         if isinstance(element, Driven):
-            groups.append(at_driver(cut, element, balances[element.driver.key]))
+            groups.append(at_driver(cut, element))
         elif isinstance(element, Dyad):
-            groups.append(of_dyad(cut, element, balances))
+            groups.append(of_dyad(cut, element))
         else:
-            groups.append(of_larger_group(cut, element, tuple(balances.values())))
+            groups.append(of_larger_group(cut, element))
     loads = (load for load in known if not load.turned and load.symbol.is_vector)
     forces: Found = {load.symbol: (load.force, (load.link,)) for load in loads}
     moments = {load.symbol: load.moment for load in known if not load.symbol.is_vector}

@@ -15,7 +15,7 @@ Forces are complex numbers in N while they are found; each is taken off the poly
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -377,13 +377,9 @@ def _slide_found(
 # -- a dyad ------------------------------------------------------------------------------------------------------------
 
 
-def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> ForceGroup:
+def of_dyad(cut: CutFree, dyad: Dyad) -> ForceGroup:
     """The forces of a dyad: those of its outer pairs, then the force inside, then those between links that drivers
     hold together.
-
-    Parameters
-    ----------
-    balances : what balances at each driver, by the driver's key
 
     Raises
     ------
@@ -418,7 +414,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, ForceVector]) -> Fo
         # links that drivers hold together, from the outermost on
         for joint in reversed(body.joints):
             on_leaf = [load for load in acting if load.link == joint.b]
-            acting += _at_driven_joint(cut, joint, balances[joint.driver.key], on_leaf, body.links)
+            acting += _at_driven_joint(cut, joint, on_leaf, body.links)
     return cut.finished(dyad.members)
 
 
@@ -537,12 +533,11 @@ def _close_driven(
 
 
 def _at_driven_joint(
-    cut: CutFree, joint: DrivenJoint, balance: ForceVector, extra: Sequence[ForceVector],
-    inside: Collection[str],
-) -> list[ForceVector]:  # fmt: skip
+    cut: CutFree, joint: DrivenJoint, extra: Sequence[ForceVector], inside: Collection[str]
+) -> list[ForceVector]:
     """The force and the moment of a driven pair on the link that hangs on it, with the ``extra`` forces and couples on
     that besides what is known from outside; returns what acts on the other link."""
-    leaf, other, pair = joint.b, joint.a, joint.pair
+    leaf, other, pair, balance = joint.b, joint.a, joint.pair, cut.drawn.balance(joint.driver)
     chain: Chain = []
     cut.lay_known(chain, (leaf,))
     cut.lay(chain, *(changed(load, by="given") for load in extra if load.symbol.is_vector))
@@ -561,14 +556,15 @@ def _at_driven_joint(
     return [acting.back for acting in on_leaf]
 
 
-def at_driver(cut: CutFree, element: Driven, balance: ForceVector) -> ForceGroup:
+def at_driver(cut: CutFree, element: Driven) -> ForceGroup:
     """The forces of a link that is driven from links still to come, and what balances it there.
 
     Raises
     ------
     Unsolvable : "dead point": the balance does no work
     """
-    link, pair = element.link, element.pair
+    link, pair, (driver,) = element.link, element.pair, element.drivers
+    balance = cut.drawn.balance(driver)
     cut.begin(element.links, "driver", "driver", (link,))
     chain, on, push = list[ForceVector](), cut.at_pair(pair, (link,)), balance.on(link)
     if pair.turns and push.force:
@@ -593,7 +589,7 @@ Unknown = tuple[ForceVector, str, Pair | None]
 the point of its pin, or its sliding pair."""
 
 
-def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVector]) -> ForceGroup:
+def of_larger_group(cut: CutFree, group: LargerGroup) -> ForceGroup:
     """The forces of a group larger than a dyad, or of one that a balance holds otherwise than by a driven link.
 
     Raises
@@ -602,16 +598,16 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[ForceVe
     """
     cut.begin(group.links, group.kind, "drawn system", group.members)
     cut.do(ForceStep("read", "system", "force", links=group.links))
-    unknowns = _unknown_forces(cut, group.members, balances)
+    unknowns = _unknown_forces(cut, group)
     values = _solved(cut, group.members, unknowns)
     _carry_over(cut, group.members, unknowns, values)
     return cut.finished(group.members)
 
 
-def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[ForceVector]) -> list[Unknown]:
+def _unknown_forces(cut: CutFree, group: LargerGroup) -> list[Unknown]:
     """The unit forces and couples of a group: two along the axes at each pin, one square to the guide and a couple at
     each sliding pair, and what balances."""
-    unknowns, inside, structure = list[Unknown](), set(members), cut.drawn.structure
+    unknowns, inside, structure = list[Unknown](), set(group.members), cut.drawn.structure
     for point, holders in structure.hinges.items():
         mine = [n for n in holders if n in inside]
         if not mine:
@@ -630,7 +626,7 @@ def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[For
             force = ForceVector(cut.drawn.of_slide(slide), link=slide.a, force=square, at=at, off=slide.b)
             couple = changed(force, symbol=cut.drawn.of_slide(slide, "M"), force=0j)
             unknowns += [(force, "", slide), (couple, "", slide)]
-    return unknowns + [(balance, "", None) for balance in balances]
+    return unknowns + [(cut.drawn.balance(driver), "", None) for driver in group.drivers]
 
 
 def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -> list[float]:
