@@ -232,6 +232,14 @@ def test_a_scene_comes_back_from_another_program(name: str, ending: str, tmp_pat
     assert here.data["mobility"] == there.data["mobility"]
 
 
+@pytest.mark.parametrize("ending", [".linkage2", ".pyslvs"])
+@pytest.mark.parametrize("name", ["whitworth", "slotter-75-150"])
+def test_the_slot_of_a_moving_link_lies_in_it_as_before(name: str, ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"there{ending}"
+    convert(name, out=path, lossy=True)
+    assert moving(graphkin.solve(name)) == pytest.approx(moving(graphkin.solve(convert(path).scene)), abs=1e-6)
+
+
 SLIDER = address(
     [shared_joint("A", 6, 0j), shared_joint("B", 0, 3 + 4j), shared_joint("C", 0, 15 + 1j),
      shared_joint("D", 21, 15 + 1j, in_base_64(0))],
