@@ -74,6 +74,30 @@ def test_indeterminate_eight_bars_stop_kennedys_theorem_where_the_literature_say
     assert known == sum(c.number < other for c in centres.found)
 
 
+def _two_fliers() -> dict[str, Any]:
+    """Two single fliers on one frame, each with a driver of its own."""
+    points = {"B": [18, 24], "E": [-7, 11], "C": [113, 86], "F": [155, 42], "H": [-10, 108], "J": [137, 108],
+              "K": [84, 173], "A": [0, 0], "D": [113, 0], "G": [11, 94]}  # fmt: skip
+    bars = {"2": "ABE", "3": "BC", "4": "DCF", "5": "HJK", "6": "EH", "7": "FJ", "8": "GK"}
+    frame: dict[str, Any] = {"name": "1", "points": {}}
+    scene: dict[str, Any] = {"frame": frame, "links": {}, "driver": [], "drawn": {}}
+    for number, right in (("", 0), ("9", 400)):
+        places = {p + number: [x + right, y] for p, (x, y) in points.items()}
+        fixed = [p + number for p in "ADG"]
+        frame["points"] |= {p: places[p] for p in fixed}
+        scene["drawn"] |= {p: z for p, z in places.items() if p not in fixed}
+        scene["driver"].append({"link": number + "2", "omega": 10})
+        for name, (a, b, *more) in bars.items():
+            further = {p + number: "drawn" for p in more}
+            scene["links"][number + name] = {"points": [a + number, b + number], "at": further}
+    return scene
+
+
+def test_the_centre_that_gives_most_others_is_measured_first() -> None:
+    measured = [c.pair for c in find_centres(mechanism_of(_two_fliers())).found if c.way]
+    assert 2 == len(measured)
+
+
 def test_what_kennedys_theorem_cannot_find_says_why_and_how_it_was_found() -> None:
     (centre,) = find_centres(mechanism_of("double-butterfly")).indeterminate
     assert centre.why is not None
