@@ -510,16 +510,7 @@ def _residues(sheet: Sheet) -> set[Symbol]:
 
 @dataclass
 class Board:
-    """Steps in order, and the readings, as they grow.
-
-    Parameters
-    ----------
-    instrument : the hands that draw and read
-    causes : the sources of the acts of the hand, each with the number of acts made when it was done
-    readings : the lengths (mm) that erring hands have read, as in `Sheet`, for every later use
-    assembly : the words for the assembly of each group by its name
-    held_still : the steps drawn separately with a link held still
-    """
+    """The hands that draw and read, and what is in a `Sheet` as it grows under them."""
 
     instrument: Instrument
     steps: list[Step] = field(default_factory=list)

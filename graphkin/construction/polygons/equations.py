@@ -2,12 +2,7 @@
 
 The known vectors of each side of an equation are laid off in order.  With no unknown size, the last vector ends in the
 wanted end point; with one, its vector joins two drawn end points; with two, lines along them cross in the end point.
-The angular rates follow from the found vectors.
-
-Two points of one link at the distance l differ in velocity by omega l square to the bar, in acceleration by omega^2 l
-along it and alpha l square to it.  Coincident points of the two links of a sliding pair differ along the guide, in
-acceleration also by 2 omega v_r square to it (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Machinery, ch.
-6 and 7).
+The angular rates follow from the found vectors (sources: see `polygons`).
 """
 
 from __future__ import annotations
@@ -338,8 +333,8 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
 
 
 def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Vector, group: Element) -> None:
-    """Measure the angular rate of a link from a vector between two of its points and the bar that joins them: the
-    vector over the bar, omega = v / l, alpha = a_t / l (Sun Huan, Mechanical Principles, ch. 3)."""
+    """Measure the angular rate of a link from a vector between two of its points and the bar that joins them:
+    omega = v / l, alpha = a_t / l (sources: see `polygons`)."""
     bar, symbol, span = edge.bar, vector.symbol, vector.span
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
     # in a trial the ends need not meet: only the part square to the bar turns it
@@ -534,7 +529,8 @@ def _contact_parts(plot: Polygons, order: Order, edge: RelativeMotion) -> list[T
     a_r; with 2 omega_1 v_r of Coriolis, and along the normal the term by the curvatures k of both outlines.
 
     With w = omega_2 - omega_1 that is w v_r - (w - k_1 v_r) (w - k_2 v_r) / (k_1 - k_2): the contact runs along the
-    outlines at rates that differ by the slip, and their tangents turn by w relative to each other (see `vector_graph`).
+    outlines at rates that differ by the slip, their tangents turn by w relative to each other, and its acceleration is
+    the same seen from either body.
     """
     link, other_link = (ref.link for ref in edge.labels)
     touch = plot.touch(edge.contact)

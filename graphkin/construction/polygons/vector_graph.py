@@ -6,11 +6,8 @@ another and stands for the velocity of the second relative to the first: square 
 points of one link, along the guide where they coincide on both sides of a sliding pair.  A chain from one known node to
 another gives a vector equation; it can be drawn when two sizes are unknown.
 
-Groups with sliding contacts are drawn at the contacts themselves too, as a second way beside what replaces them.  Where
-two outlines touch, the velocities of the material points of both bodies differ along the tangent only: v_K2 is v_K1 and
-the slip.  In acceleration the term of Coriolis comes to it, and along the normal one that the curvatures of both
-outlines give: the contact wanders along them at rates s1' and s2', where s1' - s2' is the slip and s1'/rho1 - s2'/rho2
-the relative rate of turning, and its acceleration is the same seen from either body.
+Groups with sliding contacts are drawn at the contacts themselves too, as a second way beside what replaces them: an
+edge then joins the material points of both bodies, whose velocities differ along the tangent only.
 """
 
 from __future__ import annotations

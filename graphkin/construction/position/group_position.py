@@ -4,10 +4,10 @@ A part of the group is left out, and a link of it is moved in steps; its free en
 the line of the left-out part cuts at the wanted place.  The gap between the two nearest trials is divided
 proportionally, until the left-out part fits.
 
-With one trial value the gap changes its sense between two neighbouring trials, and is divided between them (regula
-falsi).  With several, the gaps of one trial more than there are values are taken as linear; the position so found
-replaces the trial with the largest gap (Hain, Applied Kinematics; Ortega and Rheinboldt, Iterative solution of
-nonlinear equations in several variables: the sequential secant method).
+With one trial value the gap changes its sense between two neighbouring trials, and is divided between them; the new
+trial replaces that with a gap of its sense (regula falsi).  With several, the gaps of one trial more than there are
+values are taken as linear; the position so found replaces the trial with the largest gap (Hain, Applied Kinematics;
+Ortega and Rheinboldt, Iterative solution of nonlinear equations in several variables: the sequential secant method).
 
 At the scene's own position the gaps of trial drawings are closed over the whole range of a trial driver, or on a grid
 of several.
@@ -107,7 +107,7 @@ def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechani
             steps.append(PlaceStep("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
     if reduced.trial:
         steps.append(_trial_positions(so_far, reduced, poses, values))
-    board = replace(reduced.opened(so_far, [float(v) for v in values]), instrument=EXACT)
+    board = replace(reduced.opened(so_far, values.tolist()), instrument=EXACT)
     for element in reduced.elements:
         if isinstance(element, Driven):
             pose, laid = drive(board, element)
@@ -261,11 +261,7 @@ def _measured(
     positions: TrialPositions, known: PlacedLinks, reduced: ReducedMechanism, poses: Poses,
     tried: Sequence[TrialDrawing],
 ) -> TrialPositions:  # fmt: skip
-    """Trial positions with their gaps, and the divisions of these (rad, m), drawn near the final poses of the links.
-
-    Of the trials of one driver the two on either side of the wanted place are divided, then the trial with a gap of the
-    new one's sense is replaced; with several drivers the trial with the largest gap.
-    """
+    """Trial positions with their gaps, and the divisions of these (rad, m), drawn near the final poses of the links."""
     size = reduced.structure.scene.size
     exact = replace(known, instrument=EXACT)
     moved = [_moved(known, reduced, driver) for driver in reduced.trial]

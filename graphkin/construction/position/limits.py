@@ -46,15 +46,8 @@ _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, NODES - 1))
 
 @dataclass(frozen=True)
 class TurnOfCrank:
-    """Positions over a whole turn of the first driver, each followed from the one before, on paper of the mechanism's
-    size.
-
-    Parameters
-    ----------
-    placed : the elements of the mechanism
-    values : of the drivers at the start (rad, m)
-    positions : in the order of the crank's turning
-    """
+    """Positions over a whole turn of the first driver, from ``values`` of the drivers (rad, m) on, each followed from
+    the one before, on paper of the mechanism's size."""
 
     placed: PlacedElements
     values: Mapping[str, float]

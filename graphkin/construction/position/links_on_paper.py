@@ -30,7 +30,6 @@ from graphkin.structure import (
     RollingRelation,
     Structure,
     named_with_contact,
-    pick,
 )
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
@@ -108,8 +107,7 @@ def start_board(
 ) -> PlacedLinks:
     """The empty paper with the fixed points pricked, at values of the drivers (rad, m)."""
     ground = structure.scene.frame.name
-    values = structure.followed(values) if structure.followers else values
-    paper = PlacedLinks(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
+    paper = PlacedLinks(structure.links, mm, structure.followed(values), {ground: Pose(0j, 1 + 0j)}, instrument)
     if not instrument.faultless:
         paper.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
     return paper
@@ -473,31 +471,24 @@ def met_near(paper: PlacedLinks, dyad: Dyad, guess: Poses, before: Poses | None 
     return poses
 
 
-def refuse(structure: Structure, element: Dyad, intersection: Intersection, by_hand: bool = False) -> None:
-    """Raise Unsolvable where the loci of a dyad miss each other ("not assembled") or only touch ("dead point"); loci
-    drawn by hand miss where those of the mechanism meet."""
-    missed = intersection.gap < -1e-14 and not element.is_two_lines
-    if missed or not intersection.poses or intersection.sine < DEAD:
-        said = "the two loci of the group do not" if missed else "the group stands at a dead point its"
-        wanted = "choose a driver value at which the mechanism" if missed else "move the driver off this position"
-        if missed and by_hand:
-            said, wanted = "so near a dead point the drawn loci", "draw exactly with another seed or"
-        problem = Problem(named_with_contact(structure, element), Phrase(said, kind=element.kind), Phrase(wanted))
-        raise Unsolvable("not assembled" if missed else "dead point", problem)
-
-
-def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
-    """The assembly of a dyad that the scene means at its own position.
+def meeting(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Intersection:
+    """The intersection of the loci of a dyad that must be placed.
 
     Raises
     ------
-    Unsolvable : as `refuse`
-    SceneError : a sketch that fits no assembly
+    Unsolvable : the loci miss each other ("not assembled") or only touch ("dead point"); those drawn by hand miss where
+        those of the mechanism meet
     """
     intersection = meet(paper, dyad)
-    refuse(structure, dyad, intersection)
-    candidates = [paper.fresh(poses) for poses in intersection.poses]
-    return intersection.poses[pick(structure.scene, dyad.links, candidates, 0)]
+    missed = intersection.gap < -1e-14 and not dyad.is_two_lines
+    if missed or not intersection.poses or intersection.sine < DEAD:
+        said = "the two loci of the group do not" if missed else "the group stands at a dead point its"
+        wanted = "choose a driver value at which the mechanism" if missed else "move the driver off this position"
+        if missed and not paper.instrument.faultless:
+            said, wanted = "so near a dead point the drawn loci", "draw exactly with another seed or"
+        problem = Problem(named_with_contact(structure, dyad), Phrase(said, kind=dyad.kind), Phrase(wanted))
+        raise Unsolvable("not assembled" if missed else "dead point", problem)
+    return intersection
 
 
 def stuck(status: str, subject: Phrase, said: str) -> Unsolvable:

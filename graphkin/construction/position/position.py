@@ -1,10 +1,8 @@
 """The mechanism on paper: every link placed by compass and ruler, in the order of solution, and the assembly: the
 scene's own position by its data, others followed from it.
 
-Larger groups are found by trial drawings: from one position of the driver to the next the trial starts where the last
-one ended.  At the scene's own position all places are found at which a group closes, or trial drawings begin at values
-of the problem's sketch: two sketched points of a link give its direction, sliding pairs and driven angles that of
-others.
+Larger groups are found by trial drawings, which start where the last one ended, at the scene's own position at values
+of the problem's sketch.
 """
 
 from __future__ import annotations
@@ -28,11 +26,10 @@ from graphkin.construction.position.links_on_paper import (
     assembled,
     coordinate_on_paper,
     drive,
-    meant,
     meet,
+    meeting,
     met_near,
     moved,
-    refuse,
     rolled_near,
     start_board,
     stuck,
@@ -116,8 +113,7 @@ def place(
         if isinstance(element, LargerGroup):
             place_by_trial(paper, assembly.reduced[element], assembly.poses)
             return {}
-        intersection = meet(paper, element)
-        refuse(structure, element, intersection, by_hand=not paper.instrument.faultless)
+        intersection = meeting(structure, paper, element)
         index = assembly.branches.get(i, 0) % len(intersection.poses)
         met[element] = intersection, index
         return intersection.poses[index]
@@ -314,9 +310,7 @@ def found_near(
     """All links of the elements at driver values, near a guessed position, on paper of the mechanism's size; None where
     they do not fit nearby.  Rolling links are followed from ``start``, dyads from ``before`` (see `met_near`)."""
     structure = placed.structure
-    ground = structure.scene.frame.name
-    values = structure.followed(values)
-    paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
+    paper = start_board(structure, 1.0 / structure.scene.size, values)
 
     def choose(_: int, element: Dyad | LargerGroup) -> Poses | None:
         if isinstance(element, Dyad):
@@ -339,16 +333,17 @@ def own_position(
     placed: PlacedElements, of_group: Callable[[PlacedLinks, LargerGroup], Poses] | None = None
 ) -> PlacedLinks:
     """The links of some elements at the scene's own driver values, on paper of its size; ``of_group`` chooses the
-    assembly of a larger group, by trial positions if None."""
+    assembly of a larger group, by trial positions if None.  Raises as `meeting` and `pick`."""
     structure, of_group = placed.structure, of_group or partial(_group_by_sketch, placed)
     values = {d.key: d.values[0] for d in structure.scene.drivers}
     paper = start_board(structure, 1.0 / structure.scene.size, values)
     wanted = {n for element in placed.elements for n in element.members}
 
     def choose(_: int, element: Dyad | LargerGroup) -> Poses:
-        if isinstance(element, Dyad):
-            return meant(structure, paper, element)
-        return of_group(paper, element)
+        if isinstance(element, LargerGroup):
+            return of_group(paper, element)
+        poses = meeting(structure, paper, element).poses
+        return poses[pick(structure.scene, element.links, [paper.fresh(places) for places in poses], 0)]
 
     here = [element for element in structure.elements if wanted.intersection(element.members)]
     assembled(paper, here, choose, lambda driver: driver.start)
@@ -371,8 +366,7 @@ def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGr
     if not fits:
         raise stuck("not assembled", group.named, "no trial position closes this group here")
     positions = _without_twins(structure, paper, group, fits)
-    candidates = [paper.fresh(poses) for poses in positions]
-    return positions[pick(structure.scene, group.links, candidates, None)]
+    return positions[pick(structure.scene, group.links, [paper.fresh(poses) for poses in positions], None)]
 
 
 def _fits_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGroup) -> Iterator[dict[str, Pose]]:

@@ -451,7 +451,7 @@ class TrialDrawing:
     ) -> TrialDrawing | None:
         """The drawing at some values, or at those of the guess; None where it does not close."""
         at = np.array(reduced.values(guess, known.mm) if values is None else values, dtype=float)
-        paper = reduced.opened(known, [float(value) for value in at])
+        paper = reduced.opened(known, at.tolist())
 
         def choose(_: int, dyad: Dyad | LargerGroup) -> Poses | None:
             assert isinstance(dyad, Dyad)
