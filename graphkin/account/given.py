@@ -155,11 +155,6 @@ def _further(link: PlacedLink, scene: Mechanism, letters: Notation) -> list[tupl
     ]
 
 
-def fixed_points(scene: Mechanism, letters: Notation) -> list[tuple[RichText, str]]:
-    """The points of the frame: symbol and coordinates in the scene's unit, in brackets."""
-    return [(letters.point(point), place_of(z, scene)) for point, z in scene.frame.points.items()]
-
-
 def fixed_guides(scene: Mechanism, letters: Notation) -> list[tuple[RichText, str, str]]:
     """The guides of the frame that have a name: symbol, coordinates of a point of each in the scene's unit, in
     brackets, and direction (degrees)."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -31,7 +32,6 @@ from graphkin.checking.centres import must_agree
 from graphkin.checking.readings import report_on
 from graphkin.checking.report import ReadValue
 from graphkin.construction import EXACT, Instrument, Plan, execute, plan, plan_with_forces
-from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing import Drawing
 from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures import figure_kinds
@@ -45,7 +45,6 @@ from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol, asked_here
 from graphkin.solver import Motion, solved_here, structure_of
 from graphkin.solver.path.named_positions import named_positions
-from graphkin.structure import Structure
 from graphkin.structure.analysis import driven_by
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, languages
@@ -203,7 +202,32 @@ def _positions(drawn: Drawn) -> tuple[Any, ...]:
 
 
 def _beside(drawn: Drawn) -> tuple[Any, ...]:
-    sheets = sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside)
+    """The constructions at several positions: at named ones, at values of the first driver, or else at those that
+    ``[positions]`` shows.
+
+    Raises
+    ------
+    CallError : fewer than two positions, or a name of none
+    Unsolvable : a position that cannot be assembled or reached; Disagreement : a reading out of tolerance there
+    """
+    structure, scene = drawn.plan.structure, drawn.plan.structure.scene
+    positions = scene.question.positions
+    known, shown = (positions.names, positions.show) if positions else ((), ())
+    wished = drawn.beside or tuple(n for n in known if n in shown or ("all" in shown and n.isdigit()))
+    if len(wished) < 2:
+        raise CallError.of("figure polygons", "shows several positions beside each other",
+                           "name two or more beside 1 beside 7")
+    asked = tuple(s for s in scene.question.find if s.scope == "motion" and not s.at)
+    sheets = []
+    for name in map(str, wished):
+        at: At = name
+        if name not in known:
+            with suppress(ValueError):
+                at = float(name)
+        values = {**drawn.checked.sheet.drivers, **(driver_values(scene, at) or {})}
+        sheet = execute(plan(structure, values, asked))
+        report_on(sheet, solved_here(structure, values, asked)).must_agree()
+        sheets.append((name, sheet))
     return sheets[0][1], sheets
 
 
@@ -309,43 +333,3 @@ def draw(
     by_name = figures is not None
     drawn = Drawn(whole, planned, motion, wanted, seed, language, convention, driver, places, by_name)
     return drawn.saved(out, formats)
-
-
-def sheets_beside(
-    structure: Structure, drivers: Mapping[str, float], wished: Sequence[str | float]
-) -> list[tuple[str, Sheet]]:
-    """The constructions at several positions, for polygons beside each other.
-
-    Parameters
-    ----------
-    drivers : values of the drivers (rad, m) in the scene's own position
-    wished : names of positions, or values of the first driver; empty for those that ``[positions]`` shows
-
-    Raises
-    ------
-    CallError : fewer than two positions, or a name of none
-    Unsolvable : a position that cannot be assembled or reached; Disagreement : a reading out of tolerance there
-    """
-    scene = structure.scene
-    named = scene.question.positions.show if scene.question.positions else ()
-    known = scene.question.positions.names if scene.question.positions else ()
-    wished = wished or tuple(n for n in known if n in named or ("all" in named and n.isdigit()))
-    if len(wished) < 2:
-        raise CallError.of("figure polygons", "shows several positions beside each other",
-                           "name two or more beside 1 beside 7")
-    asked = tuple(s for s in scene.question.find if s.scope == "motion" and not s.at)
-    sheets = []
-    for name in map(str, wished):
-        values = {**drivers, **(driver_values(scene, name if name in known else _number(name)) or {})}
-        sheet = execute(plan(structure, values, asked))
-        report_on(sheet, solved_here(structure, values, asked)).must_agree()
-        sheets.append((name, sheet))
-    return sheets
-
-
-def _number(text: str) -> float | str:
-    """A driver's value as a number; a name of a position stays a text."""
-    try:
-        return float(text)
-    except ValueError:
-        return text

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 from graphkin.account.given import (
     fixed_guides,
-    fixed_points,
     given_drivers,
     given_lengths,
     given_shapes,
     given_teeth,
+    place_of,
     rolling_starts,
 )
 from graphkin.account.headings import remarks, term
@@ -131,7 +131,7 @@ def given_lines(sheet: Sheet, letters: Notation, language: str, width: float, si
     items += given_teeth(scene, language)
     items += [name + f" = {value} {unit}" for name, value in given_lengths(scene, letters)]
     items += given_shapes(scene, letters, language)
-    fixed = [name + f" {place} {unit}" for name, place in fixed_points(scene, letters)]
+    fixed = [letters.point(p) + f" {place_of(z, scene)} {unit}" for p, z in scene.frame.points.items()]
     guide = term("guide", language)
     fixed += [guide + " " + name + f" {place} {unit}, {angle}°" for name, place, angle in fixed_guides(scene, letters)]
     lines = [line for group in (items, fixed) for line in _flowed(group, size, width)]

@@ -15,12 +15,12 @@ from graphkin.account.forces import ForceStage, force_stages
 from graphkin.account.given import (
     drivers,
     fixed_guides,
-    fixed_points,
     given_drivers,
     given_lengths,
     given_loads,
     given_shapes,
     given_teeth,
+    place_of,
     rolled_starts,
     rolling_starts,
 )
@@ -231,7 +231,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     scene, letters, language = lesson.sheet.scene, lesson.letters, lesson.language
     unit = scene.units.length
     lengths = [name + f" = {value}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
-    fixed = [name + f" {place}{BOUND}{unit}" for name, place in fixed_points(scene, letters)]
+    fixed = [letters.point(p) + f" {place_of(z, scene)}{BOUND}{unit}" for p, z in scene.frame.points.items()]
     yield from _formulas(lesson, "lengths given", [*lengths, *given_teeth(scene, language)])
     yield from _formulas(lesson, "fixed points", fixed)
     yield from _clauses(lesson, "guides", {each: _guides(lesson, each) for each in languages(language)})

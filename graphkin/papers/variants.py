@@ -214,30 +214,28 @@ def examined(
             asked = usual if set(usual) <= set(asked) else asked[:MOST_ASKED]
             read = answers = tuple(one for one in answers if one[0] in asked)
             made["find"] = [str(s) for s in asked]
-        _held(read, first, bounds.tolerance)
+        for symbol, value in read:
+            if why := _missed(symbol, value, first.get(symbol, 0.0), bounds.tolerance):
+                raise Unfit(why)
     predicted = predict(planned, "pencil", scene.question.sheet.tools)
     bounded = []
     for symbol, value in answers:
         bound = predicted[symbol].bound if symbol in predicted else 0.0
         unit = symbol.unit(scene.units)
-        try:
-            _held([(symbol, value)] if symbol not in idle else [], {symbol: bound}, bounds.tolerance)
-        except Unfit as unfit:
-            if strict or not math.isfinite(bound):
-                raise
-            remarks.append(unfit.why)
+        why = None if symbol in idle else _missed(symbol, value, bound, bounds.tolerance)
+        if why and (strict or not math.isfinite(bound)):
+            raise Unfit(why)
+        remarks += [why] if why else []
         bounded.append(Answer(str(symbol), float(f"{unit.of(value):.12g}"), float(f"{unit.of(bound):.6g}"), unit.text))
     return Variant(name, made, tuple(bounded), tuple(remarks))
 
 
-def _held(answers: Sequence[tuple[Symbol, float]], bounds: Mapping[Symbol, float], tolerance: float) -> None:
-    """Raise Unfit for an answer whose error by pencil may exceed the allowed part of it."""
-    for symbol, value in answers:
-        bound = bounds.get(symbol, 0.0)
-        if not math.isfinite(bound):
-            raise Unfit(Phrase("unfit near dead point", symbol=str(symbol)))
-        if bound > tolerance * abs(value):
-            raise Unfit(Phrase("unfit missed", symbol=str(symbol), percent=f"{100 * tolerance:.2g}"))
+def _missed(symbol: Symbol, value: float, bound: float, tolerance: float) -> Phrase | None:
+    """The reason against an answer whose error by pencil may exceed the allowed part of it; None for others."""
+    if not math.isfinite(bound):
+        return Phrase("unfit near dead point", symbol=str(symbol))
+    missed = Phrase("unfit missed", symbol=str(symbol), percent=f"{100 * tolerance:.2g}")
+    return missed if bound > tolerance * abs(value) else None
 
 
 def _within_reach(
