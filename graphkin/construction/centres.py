@@ -189,7 +189,8 @@ class Centres:
         """The chart about the middle of all points and of all links' origins."""
         spots = [self.point(p) for p, names in self.scene.holders.items() if any(n in self.poses for n in names)]
         spots += [self.poses[n].origin for n in self.names]
-        xs, ys = [z.real for z in spots], [z.imag for z in spots]
+        xs = [z.real for z in spots]
+        ys = [z.imag for z in spots]
         half = abs(complex(max(xs) - min(xs), max(ys) - min(ys))) / 2
         middle = complex(min(xs) + max(xs), min(ys) + max(ys)) / 2
         return ProjectiveChart(middle, half or self.scene.size * self.mm)
@@ -508,7 +509,8 @@ def _otherwise(
     `measured` motions; their relative motion may vanish beside the ``largest`` of a link."""
     pair = diagram.to_measure(motions)
     # too few triangles, or lines that fall together
-    count, links = len(diagram.lines[pair]), {"first": pair[0], "second": pair[1]}
+    count = len(diagram.lines[pair])
+    links = {"first": pair[0], "second": pair[1]}
     few, together = Phrase("centre few lines", **links, lines=count), Phrase("centre lines together", **links)
     why = few if count < 2 else together
     if not motions.keys() >= {*pair}:

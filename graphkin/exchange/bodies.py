@@ -128,8 +128,10 @@ class Bodies:
         guides: dict[str, dict[str, Json]] = {}  # of each body by their names
         refs = []
         for slide in self.slides:
-            (origin, axis), names = self._axis(slide.on), guides.setdefault(slide.on, {})
-            name, angle = f"s{len(names) + 1}", _degrees(slide.angle - cmath.phase(axis))
+            origin, axis = self._axis(slide.on)
+            names = guides.setdefault(slide.on, {})
+            name = f"s{len(names) + 1}"
+            angle = _degrees(slide.angle - cmath.phase(axis))
             names[name] = {"through": _pair((slide.through - origin) / axis), "angle": angle}
             refs.append(f"{slide.on}.{name}")
         for on, names in guides.items():
@@ -214,10 +216,9 @@ class Bodies:
         first = next((s.point for s in self.slides if s.body == name and not s.turns), points[0] if points else "")
         rest = [p for p in points if p != first]
         size = max((abs(self.places[p] - self.places[first]) for p in rest), default=0.0)
-        second = next((p for p in rest if abs(self.places[p] - self.places[first]) > SAME * size), None)
-        if second is None:
-            return [p for p in (first,) if p], rest
-        return [first, second], [p for p in rest if p != second]
+        second = next((p for p in rest if abs(self.places[p] - self.places[first]) > SAME * size), "")
+        ends = [p for p in (first, second) if p]
+        return ends, [p for p in points if p not in ends]
 
     def _link(self, name: str) -> dict[str, Json]:
         ends, further = self._ordered(name)

@@ -132,7 +132,8 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
 
 def _follow(made: _Construction, name: str, given: list[str], got: list[str]) -> None:
     """Follow a command."""
-    out, points, circles, lines = got[0] if got else "", made.made.names, made.circles, made.lines
+    out, points = got[0] if got else "", made.made.names
+    circles, lines = made.circles, made.lines
 
     def slide(point: str, line: str) -> None:
         made.slid.append((point, lines[line], Phrase("lost point on line", name=point, line=line)))

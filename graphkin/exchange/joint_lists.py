@@ -142,7 +142,8 @@ def read_address(text: str, title: str) -> Bodies:
             sections.append([])
     if len(sections) < 3 or not sections[0] or not sections[1]:
         raise CallError.of(title, "is no link of pmks with joints and", "copy the whole link")
-    flags, decimals, speeds = _whole(heads[0], title), heads[1].split(","), heads[2].split(",")
+    flags = _whole(heads[0], title)
+    decimals, speeds = heads[1].split(","), heads[2].split(",")
     made = Bodies(title, unit=UNITS[min(_whole(heads[3][:1], title), 2)] if heads[3] else "cm")
     turning = (-1.0 if flags & 1 else 1.0) * _whole(speeds[0], title) * math.tau / 60
     sliding = _whole(decimals[1], title) / 1000 if len(decimals) > 1 else 1.0

@@ -91,7 +91,8 @@ def _number(node: ElementTree.Element, key: str, usual: float = 0.0) -> float:
 def _slider(made: Bodies, node: ElementTree.Element, holders: list[str]) -> None:
     """Add a connector that runs on the straight line between two others of one body."""
     limits = [c.get("id", "") for c in node if c.tag == "slidelimit"][:2]
-    point, held = made.names[node.get("id", "")], len(limits) == 2 and made.names.keys() >= {*limits} and holders
+    point = made.names[node.get("id", "")]
+    held = len(limits) == 2 and made.names.keys() >= {*limits} and holders
     on = made.holder(limits) if held else None
     if not held:
         lost = "lost slider limits"

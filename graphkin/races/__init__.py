@@ -250,7 +250,8 @@ def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> 
 def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, float]]:
     """Entries with a value of this kind, with cost and error."""
     of_kind = ((e, getattr(e, f"{kind}_cost"), getattr(e, f"{kind}_error")) for e in entries)
-    return [(e, cost, max(error, LOWEST * 1.5)) for e, cost, error in of_kind if error is not None and isfinite(error)]
+    known = ((e, cost, error) for e, cost, error in of_kind if error is not None and isfinite(error))
+    return [(e, cost, max(error, LOWEST * 1.5)) for e, cost, error in known]
 
 
 def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> None:
@@ -285,7 +286,8 @@ def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]
         return rich_text(asked, language)
     if not entry.tag:
         return word(entry.key, language)
-    of_curve, number = [e for e, _, _ in points if e.key == entry.key], _number(entry.tag)
+    of_curve = [e for e, _, _ in points if e.key == entry.key]
+    number = _number(entry.tag)
     if entry is of_curve[0]:
         return f"{_named(entry, language)} {number}"
     numbered = entry.tag in NUMBERED[entry.family] if entry.family in NUMBERED else entry is of_curve[-1]

@@ -1,9 +1,10 @@
 """From a scene to its structure: mobility, and the elements in the order of solution; or why there is no such order.
 
 Hinges, slides, drivers and rolling pairs are equations between coordinates of links and points.  A matching gives each
-equation a coordinate of its own; strongly connected components of the graph of dependences are solved together: they
-are driven links, dyads of some kind, or larger groups.  A scene has no such order with too many or too few drivers, or
-where some parts are overconstrained and others free.
+equation a coordinate of its own, if every part of the mechanism has as many equations as coordinates; strongly
+connected components of the graph of dependences are solved together, the Assur groups: driven links, dyads of some
+kind, or larger groups.  A scene has no such order with too many or too few drivers, or where some parts are
+overconstrained and others free.
 
 The matching and the components are our own 60 lines: a graph of some ten nodes does not call for one more dependency
 (networkx), or for scipy.sparse.csgraph, which takes longer to import than a mechanism to solve.
@@ -55,10 +56,6 @@ Unknown = tuple[Node, str]  # a node and one of its coordinates x, y, t
 
 def analyse(scene: Mechanism | Structure) -> Structure:
     """Find the mobility and the order of solution; a structure is handed back as it is.
-
-    Each constraint is assigned one coordinate that it gives (a perfect matching exists just when every part of the
-    mechanism has as many constraints as coordinates); the strongly connected components of the graph of dependences are
-    the Assur groups, in the order of solution.
 
     Raises
     ------
@@ -213,7 +210,8 @@ def match(equations: Sequence[Sequence[N]]) -> dict[int, N]:
     for start in range(len(equations)):
         # breadth-first search for a free unknown, so that depth is no limit
         came_from: dict[N, int] = {}
-        queue, step = [start], None
+        queue = [start]
+        step: N | None = None
         for equation in queue:
             fresh = [unknown for unknown in equations[equation] if unknown not in came_from]
             came_from.update(dict.fromkeys(fresh, equation))

@@ -390,7 +390,9 @@ def named_with_contact(structure: Structure, group: Dyad | LargerGroup) -> Phras
     """
     contacts = (pair for pair in structure.touching if pair.block in group.members and not pair.carrier)
     contact = next(contacts, None) if isinstance(group, Dyad) else None
-    return Phrase("contact of links", contact=contact.name, links=listed(contact.bodies)) if contact else group.named
+    if contact is None:
+        return group.named
+    return Phrase("contact of links", contact=contact.name, links=listed(contact.bodies))
 
 
 N = TypeVar("N", bound=Hashable)

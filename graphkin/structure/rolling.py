@@ -146,7 +146,8 @@ def followers_of(
 def driven_twice(structure: Structure) -> list[Driver]:
     """The drivers whose rates slides, rolling and the drivers before them give already, so that one contradicts the
     others."""
-    scene, alike = structure.scene, dict[str, str]()  # of links that never turn relative to each other, one
+    scene = structure.scene
+    alike: dict[str, str] = {}  # of links that never turn relative to each other, one
     for link in (scene.frame.name, *structure.links):
         for name in structure.turning_with(link):
             alike.setdefault(name, link)

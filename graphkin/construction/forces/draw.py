@@ -65,7 +65,9 @@ def with_forces(sheet: Sheet, hand: Instrument = EXACT, scales: ForceScales | No
     scales = scales or sheet.force_scales or force_scales(sheet)
     moves = any(driver.values[1] for driver in sheet.scene.drivers)
     growing = sheet if moves else sheet.growing[0]
-    drawn, held, loading = DrawnPosition(sheet), held_by_pairs(sheet), sheet.scene.loading
+    drawn = DrawnPosition(sheet)
+    held = held_by_pairs(sheet)
+    loading = sheet.scene.loading
     inertias = {mass.link: inertia_read(drawn, mass, hand) for mass in loading.masses}
     springs = tuple(spring_read(drawn, spring, hand) for spring in loading.springs)
     states = [
@@ -89,7 +91,8 @@ def _numbered(sheet: Sheet) -> Sheet:
         return replace(group, steps=tuple(map(numbered, group.steps)))
 
     inertias = {link: numbered(step) for link, step in sheet.inertias.items()}
-    springs, first = tuple(map(numbered, sheet.springs)), [in_order(group) for group in bare]
+    springs = tuple(map(numbered, sheet.springs))
+    first = [in_order(group) for group in bare]
     groups = [
         tuple(done if drawn == before else in_order(drawn)
               for drawn, before, done in zip(state.groups, bare, first, strict=True))

@@ -134,11 +134,7 @@ class CutFree:
         for place in places:
             if all(abs(place - corner) > APART for corner in corners):
                 corners.append(place)
-
-        def letter(place: complex) -> str:
-            return chr(ord("a") + min(range(len(corners)), key=lambda k: abs(corners[k] - place)))
-
-        letters = {place: letter(place) for place in places}
+        letters = {place: chr(ord("a") + int(np.abs(np.array(corners) - place).argmin())) for place in places}
         polygon = tuple(changed(v, ends=(letters[v.tail], letters[v.tip])) for v in chain)
         known = tuple(v for v in polygon if v.by != "closing" and abs(v.span) > ZERO)
         found = tuple(v for v in reversed(polygon) if v.by == "closing")
@@ -537,7 +533,8 @@ def _at_driven_joint(
 ) -> list[ForceVector]:
     """The force and the moment of a driven pair on the link that hangs on it, with the ``extra`` forces and couples on
     that besides what is known from outside; returns what acts on the other link."""
-    leaf, other, pair, balance = joint.b, joint.a, joint.pair, cut.drawn.balance(joint.driver)
+    leaf, other, pair = joint.b, joint.a, joint.pair
+    balance = cut.drawn.balance(joint.driver)
     chain: Chain = []
     cut.lay_known(chain, (leaf,))
     cut.lay(chain, *(changed(load, by="given") for load in extra if load.symbol.is_vector))

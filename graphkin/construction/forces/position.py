@@ -17,6 +17,7 @@ from functools import cached_property
 
 from graphkin.construction.board.instruments import Instrument
 from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.steps import Order
 from graphkin.construction.forces.steps import ForceStep, ForceVector, Inertia, shifted_line
 from graphkin.construction.position.links_on_paper import travel
 from graphkin.errors import Problem, Unsolvable
@@ -159,13 +160,13 @@ class DrawnPosition:
         most = max(abs(a), abs(b), *(abs(z) for z in self.sheet.ends["velocity"].values()))
         return dot(a - b, self.along(slide)) * self.sheet.scales.velocity, most * self.sheet.scales.velocity
 
-    def image(self, order: str, link: str) -> tuple[tuple[complex, complex], tuple[complex, complex]] | None:
+    def image(self, order: Order, link: str) -> tuple[tuple[complex, complex], tuple[complex, complex]] | None:
         """Two points of a link that lie farthest apart, each with its end point; None where it has no two."""
         known = self._known(order, link)
         far = max(((p, q) for p in known for q in known), key=lambda both: abs(both[0][0] - both[1][0]), default=None)
         return far if far is not None and abs(far[0][0] - far[1][0]) > COINCIDE * self.size else None
 
-    def _known(self, order: str, link: str) -> list[tuple[complex, complex]]:
+    def _known(self, order: Order, link: str) -> list[tuple[complex, complex]]:
         """Points of a link that have an end point: place on the mechanism and end (mm)."""
         points = self.sheet.structure.links[link].points
         return [
@@ -174,7 +175,7 @@ class DrawnPosition:
             if PointRef(ref.point) in self.sheet.points and (ref.link == link or (not ref.link and ref.point in points))
         ]
 
-    def end(self, order: str, link: str, at: complex) -> complex:
+    def end(self, order: Order, link: str, at: complex) -> complex:
         """The end point of the velocity or the acceleration of the point of a link that lies at a place (mm)."""
         if link == self.sheet.scene.frame.name:
             return 0j
@@ -190,10 +191,8 @@ class DrawnPosition:
             (a, a_end), (b, b_end) = far
             return a_end + (b_end - a_end) * ((at - a) / (b - a))
         scales, omega = self.sheet.scales, self.sheet.rates["omega"][link].value
-        if order == "velocity":
-            return end + 1j * omega * (at - start) * (scales.length / scales.velocity)
-        turning = 1j * self.sheet.rates["alpha"][link].value - omega**2
-        return end + turning * (at - start) * (scales.length / scales.acceleration)
+        turning = 1j * omega if order == "velocity" else 1j * self.sheet.rates["alpha"][link].value - omega**2
+        return end + turning * (at - start) * (scales.length / scales.of(order))
 
 
 def force_groups(drawn: DrawnPosition) -> Sequence[Element]:
@@ -254,9 +253,11 @@ def acting_loads(sheet: Sheet, growing: Sheet) -> dict[str, bool | None]:
     """
     acting: dict[str, bool | None] = {}
     for load in sheet.scene.loading.loads:
-        acts, edge, phase = True, False, load.phase
+        acts, edge = True, False
+        phase = load.phase
         if phase is not None and phase.stroke:  # how far its stroke has gone, and which way it runs
-            slide, ends = sheet.structure.slide(phase.stroke), [end.poses for end in sheet.limits[phase.stroke]]
+            slide = sheet.structure.slide(phase.stroke)
+            ends = [end.poses for end in sheet.limits[phase.stroke]]
             here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, *ends))
             slip, most = DrawnPosition(growing).slip(slide)
             running = abs(slip) > STILL * most and (slip > 0) == (phase.sense > 0)
