@@ -505,8 +505,8 @@ def _with_table(links: Centres, instrument: Instrument) -> Centres:
 def _otherwise(
     diagram: CircleDiagram, motions: Mapping[str, tuple[complex, float, float]], largest: float
 ) -> Centre:
-    """A centre that Kennedy's theorem does not give now: the place at which two links have the same velocity, by their
-    `measured` motions; their relative motion may vanish beside the ``largest`` of a link."""
+    """A centre that Kennedy's theorem does not give now: where two links have the same velocity, by their `measured`
+    motions; these may differ by nothing beside the ``largest``."""
     pair = diagram.to_measure(motions)
     # too few triangles, or lines that fall together
     count = len(diagram.lines[pair])

@@ -182,8 +182,7 @@ class Bodies:
         return made
 
     def _tidy(self) -> None:
-        """Remove bodies of a single point that only hang on another body, whose pin it is, and bodies without
-        points."""
+        """Remove bodies that only hang on another by its pin, and bodies without points."""
         for name in [n for n, points in self.bodies.items() if not points and n != FRAME]:
             del self.bodies[name]
             self.lost += [Phrase("lost slide", link=s.body, on=s.on) for s in self.slides if name in (s.body, s.on)]

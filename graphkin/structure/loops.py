@@ -366,18 +366,13 @@ def loops_in_numbers(
 def _solved(
     loops: Sequence[Loop], axes: Mapping[str, complex], travels: Mapping[str, float], turning: Turning, known: Rates
 ) -> LoopBlock | None:
-    """Loops solved together for the rates of their unknowns: an angle turns each arrow z that it leads by i z, a travel
-    lengthens the one along its guide by the unit vector u; what the known rates give stands on the right side.
+    """Loops solved together for the rates of their unknowns; what the known rates give stands on the right side.  None
+    where there are not two unknowns a loop, or the position is singular.
 
     Parameters
     ----------
     loops : at the position, with the axis and the travel of each arrow
     axes, travels : of links, and of sliding pairs (m), from which the values of the unknowns come
-    known : first and second rates of what was found before
-
-    Returns
-    -------
-    None where there are not two unknowns a loop, or the position is singular
     """
     unknowns = loops[0].unknowns
     if len(unknowns) != 2 * len(loops):

@@ -216,8 +216,7 @@ TURN = -1j
 
 
 def _levers(sheet: Sheet, state: ForceState, hand: Instrument) -> Iterator[Lever]:
-    """A lever for each driver, or for the balance in its place: the sum of all moments about the pole is zero; none
-    where the balancing load does no work."""
+    """A lever for each driver, or for the balance in its place; none where the balancing load does no work."""
     drivers = sheet.scene.drivers if sheet.scene.loading.balance is None else sheet.scene.drivers[:1]
     # the lever is the velocity polygon of the position with this driver's value alone growing
     for driver, drawn in zip(drivers, sheet.growing or (sheet,), strict=True):
@@ -242,8 +241,7 @@ def _levers(sheet: Sheet, state: ForceState, hand: Instrument) -> Iterator[Lever
 
 
 def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> MomentTerm:
-    """The moment of a force about the pole, at the end point of its point's velocity; of a couple as a pair of forces
-    at two points of its link, square to the line between them."""
+    """The moment about the pole of a force, or of a couple as a pair of forces on its link."""
     link, per_mm = acting.link, images.sheet.scales.velocity
     if acting.symbol.is_vector:
         end = TURN * images.end("velocity", link, acting.at)

@@ -241,11 +241,11 @@ class CutFree:
         return ForceVector(symbol, link=link, at=at, by="closing", off=other)
 
     def hand_on(self, force: ForceVector, inside: Collection[str]) -> None:
-        """Load with a force or a couple that of its two links which is not inside a group: it is still to come."""
+        """Load with a force or a couple that of its two links which is still to come, not inside a group."""
         self.push(*(acting for acting in (force, force.back) if acting.link not in inside))
 
     def set_balance(self, balance: ForceVector, acting: ForceVector, inside: Collection[str]) -> None:
-        """A balancing load as found on one of its two links: what drives a link from one still to come loads that."""
+        """A balancing load, as found on one of its two links; it loads the other, if that comes later."""
         self.balances.append(acting.on(balance.link))
         self.hand_on(acting, inside)
 
@@ -352,15 +352,9 @@ def _slide_found(
     cut: CutFree, links: Sequence[str], slide: Pair, force: ForceVector, about: complex, letter: str,
     acting: Iterable[ForceVector], inside: Collection[str],
 ) -> ForceVector:  # fmt: skip
-    """The couple of a sliding pair on links, from the moments about a place (mm), and where it puts the line of action
-    of the pair's force.
-
-    Parameters
-    ----------
-    letter : of the point at that place, or the link at whose origin it lies
-    acting : forces and couples found already that are not yet among the known, the pair's own among them
-    inside : links that do not come later
-    """
+    """The couple of a sliding pair on links, from the moments about a place, and where it puts the line of action of
+    the pair's force; ``about``, ``letter`` and ``acting``, with the pair's own, as in `CutFree.moments`, the links
+    ``inside`` do not come later."""
     unknown = ForceVector(replace(force.symbol, kind="M"), link=force.link, moment=1.0, off=force.off)
     step = cut.moments("couple", links, about, letter, unknown, acting)
     shift = cut.shift(force, step.value)
@@ -508,8 +502,7 @@ def _close_driven(
     ----------
     chain : its polygon, as far as it is known
     on, push : the force and what drives, of size 1 or of unknown direction
-    more : forces and couples on it found already that are not yet among the known
-    inside : links that do not come later
+    more, inside : as in `CutFree.moments`, and links that do not come later
     """
     links = (on.link,)
     if pair.turns:
