@@ -252,15 +252,18 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     check_own_points(reading)
     reading = replace(reading, slides=sliding_pairs(reading))
     reading = replace(reading, slides=(*reading.slides, *pins_in_slots(reading)))
-    discs = discs_of(reading)
-    touching: tuple[HigherPair, ...] = (*contacts_of(reading, discs), *gears_of(reading))
+    discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
+    touching: tuple[HigherPair, ...] = ()
+    if reading.touching:
+        touching = *contacts_of(reading, discs), *gears_of(reading)
     for table in ("sketch", "drawn"):
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
     check_references(reading)
     check_rolling(reading)
-    find, stated = asked(reading), stated_values(reading)
+    find = asked(reading) if file.find else ()
+    stated = stated_values(reading) if file.printed or file.printed_rows or file.printed_table else ()
     positions = positions_named(file.positions, reading) if file.positions else None
-    loops = loops_named(reading)
+    loops = loops_named(reading) if file.loops else {}
     check_held(reading)
     driven = drives(reading)
     position = places.stated_position(reading, driven.values())
@@ -274,8 +277,8 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         places.check_all_found(position)
         places.check_distances(position)
     reading = replace(reading, places={name: body.local for name, body in position.bodies.items()})
-    lifting = cams_of(reading, position.bodies[reading.frame.name].guides, position.drawn)
-    if not problems:
+    lifting = cams_of(reading, position.bodies[reading.frame.name].guides, position.drawn) if file.cams else ()
+    if touching and not problems:
         places.check_held_distances(touching, position)
     values = [position.value_of(driver) for driver in driven.values()]
     tables = () if problems else ((reading.frame.name, None), *reading.links.items())
@@ -283,7 +286,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
     loading = loading_of(reading)
     wish = file.sheet.background
     under = background_of(wish, {**position.drawn, **reading.places[reading.frame.name]}, reading) if wish else None
-    scans = scans_of(reading)
+    scans = scans_of(reading) if file.scans else {}
     drivers = [placed_driver(*at, value, reading) for at, value in zip(driven.items(), values, strict=True)]
     if positions is not None and drivers and drivers[0].turns and drivers[0].position:
         drivers[0] = at_its_position(drivers[0], positions)
