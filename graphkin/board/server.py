@@ -63,14 +63,6 @@ def needs_live() -> None:
         raise CallError.of("open", "needs", 'pip install "graphkin[live]"', missing=listed(missing))
 
 
-def _policy(nonce: str, address: Address) -> str:
-    sockets = " ".join(f"ws://{host}" for host in address.hosts)
-    return (
-        f"default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; img-src 'self' data: blob:; "
-        f"font-src 'self'; connect-src 'self' {sockets}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-    )
-
-
 def application(shelf: Shelf, address: Address, language: str = "") -> Starlette:
     """The ASGI application of the page.
 
@@ -101,29 +93,34 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
             return "the secret of this address is wrong: open the one that graphkin printed"
         return ""
 
-    def headed(response: Response, nonce: str = "") -> Response:
+    async def served(request: Request) -> Response:
+        """The page, or a file that it asks for."""
+        name, why, nonce = request.path_params.get("name", ""), refused(request), ""
+        response: Response
+        if "path" in request.path_params:
+            response = PlainTextResponse("open the address that graphkin printed", 403)
+        elif why:
+            response = PlainTextResponse(why, 403)
+        elif name in _FILES:
+            folder, kind = _FILES[name]
+            response = Response((folder / name).read_bytes(), media_type=kind)
+        elif name:
+            response = PlainTextResponse(say(Phrase("there is no such file"), LANGUAGES[0]), 404)
+        else:
+            nonce, body = secrets.token_urlsafe(16), (STATIC / "board.html").read_text(encoding="utf-8")
+            response = Response(body.replace("NONCE", nonce).replace("LANGUAGE", language), media_type="text/html")
+        sockets = " ".join(f"ws://{host}" for host in address.hosts)
+        policy = (
+            f"default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; img-src 'self' data: blob:; "
+            f"font-src 'self'; connect-src 'self' {sockets}; "
+            "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+        )
         response.headers.update({
-            "Content-Security-Policy": _policy(nonce, address), "X-Content-Type-Options": "nosniff",
+            "Content-Security-Policy": policy, "X-Content-Type-Options": "nosniff", "Cache-Control": "no-store",
             "Referrer-Policy": "no-referrer", "Cross-Origin-Resource-Policy": "same-origin",
-            "Cross-Origin-Opener-Policy": "same-origin", "Cache-Control": "no-store",
+            "Cross-Origin-Opener-Policy": "same-origin",
         })  # fmt: skip
         return response
-
-    async def page(request: Request) -> Response:
-        if why := refused(request):
-            return headed(PlainTextResponse(why, 403))
-        nonce = secrets.token_urlsafe(16)
-        body = (STATIC / "board.html").read_text(encoding="utf-8").replace("NONCE", nonce).replace("LANGUAGE", language)
-        return headed(Response(body, media_type="text/html"), nonce)
-
-    async def static(request: Request) -> Response:
-        if why := refused(request):
-            return headed(PlainTextResponse(why, 403))
-        name = request.path_params["name"]
-        if name not in _FILES:
-            return headed(PlainTextResponse(say(Phrase("there is no such file"), LANGUAGES[0]), 404))
-        folder, kind = _FILES[name]
-        return headed(Response((folder / name).read_bytes(), media_type=kind))
 
     async def talk(socket: WebSocket) -> None:
         if refused(socket) or socket.headers.get("origin") not in origins:
@@ -138,12 +135,9 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
         except (WebSocketDisconnect, KeyError, RuntimeError):  # KeyError: bytes instead of a text
             return
 
-    async def elsewhere(request: Request) -> Response:
-        return headed(PlainTextResponse("open the address that graphkin printed", 403))
-
     routes = [
-        Route("/{secret}/", page), WebSocketRoute("/{secret}/talk", talk), Route("/{secret}/{name}", static),
-        Route("/{path:path}", elsewhere, methods=["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH"]),
+        Route("/{secret}/", served), WebSocketRoute("/{secret}/talk", talk), Route("/{secret}/{name}", served),
+        Route("/{path:path}", served, methods=["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH"]),
     ]  # fmt: skip
     return Starlette(routes=routes)
 

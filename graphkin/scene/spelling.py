@@ -67,9 +67,7 @@ class Spelling:
                 name, unit = match[1].rstrip(" /"), next(g for g in match.groups()[1:] if g is not None)
                 unit = unit.strip("() ")
                 symbol = self.symbol(name)
-                if (symbol is not None or pattern is _HEAD_UNIT) and (
-                    pattern is _HEAD_UNIT or (symbol and unit_factor(unit, symbol, self.units))
-                ):
+                if pattern is _HEAD_UNIT or (symbol and unit_factor(unit, symbol, self.units)):
                     return name, unit
         return plain, ""
 

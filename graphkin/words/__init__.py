@@ -20,12 +20,6 @@ from typing import Any, TypeAlias, TypeVar
 
 from graphkin.words.symbols import RichText, Words, noted, plain, rate, sign
 
-__all__ = [
-    "BOTH", "LANGUAGES", "Neutral", "Phrase", "Wording", "about", "area", "as_data", "class_of", "clause_of", "clauses",
-    "filled", "from_data", "from_others", "gaps_of", "has_words", "in_all", "joined", "languages", "links_named",
-    "listed", "parts", "rich_text", "say", "sense_of", "word",
-]  # fmt: skip
-
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
 LANGUAGES = tuple(sorted(_TABLES, key=lambda name: (name != "en", name)))
 """Languages that have a table; English, which the others translate, first."""
