@@ -7,6 +7,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from typing import TypeAlias
 
 from graphkin.account.headings import number
@@ -68,20 +69,21 @@ class Shown:
     """The content of the figure, all at one scale.
 
     own : the scene's own position
-    limits : the low and the high limit position of an output, by the output's sliding pair or link
+    output, limits : a sliding pair or a link, and its low and high limit position; none where it has none
     numbered : other positions by name
     least : the position of the least transmission angle of the last group, and the angle (rad)
     paths : places (mm) of points of couplers over a turn
-    measured : readings of the whole turn (m, rad), by kind ("stroke", "swing", "K", "theta_lag") and output
+    measured : readings of the whole turn (m, rad), by kind ("stroke", "swing", "K", "theta_lag")
     without : the reason for missing limit positions, by the asked stroke or swing
     """
 
     own: Sheet
-    limits: Mapping[str, tuple[Sheet, Sheet]]
+    output: str
+    limits: tuple[Sheet, ...]
     numbered: Mapping[str, Sheet]
     least: tuple[Sheet, float, tuple[complex, complex, complex]] | None
     paths: Mapping[str, Sequence[complex]]
-    measured: Mapping[tuple[str, str], float]
+    measured: Mapping[str, float]
     marks: tuple[str, ...]
     without: Mapping[Symbol, Wording] = field(default_factory=dict)
 
@@ -109,32 +111,29 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
         return execute(plan(structure, {**own.drivers, key: value}, ())).at(own.scales)
 
     numbered = {name: drawn(value) for name, value in values.items() if name in (*show, *every)}
-    limits: dict[str, tuple[Sheet, Sheet]] = {}
+    output, limits = "", tuple[Sheet, ...]()
     without: dict[Symbol, Wording] = {}
-    measured: dict[tuple[str, str], float] = {}
-    if "limits" in show:
-        for output in _outputs(scene, structure):
-            kinds = ("stroke" if "/" in output else "swing", "K", "theta_lag")
-            asked = tuple(Symbol.parse(f"{kind}_{output}") for kind in kinds)
-            try:
-                turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
-                low, high = turned.limits[output]
-                limits[output] = drawn(low.value), drawn(high.value)
-            except Unsolvable as stop:  # no whole turn, not of all links, or an output that turns on and on
-                where, found = stop.problems[0].where, stop.problems[0].found
-                other = Phrase("where and what", where=where, found=found)
-                without[asked[0]] = found if where == str(asked[0]) else other
-                continue
-            if low.rest or high.rest:  # the strokes are not parted by two positions of the crank
-                marks = tuple(mark for mark in marks if mark != "theta")
-            for reading in read_off(turned):
-                if reading.symbol in asked:
-                    measured[reading.symbol.kind, output] = float(reading.value.real)
-            break
+    measured: dict[str, float] = {}
+    for output in _outputs(scene, structure) if "limits" in show else ():
+        kinds = ("stroke" if "/" in output else "swing", "K", "theta_lag")
+        asked = tuple(Symbol.parse(f"{kind}_{output}") for kind in kinds)
+        try:
+            turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
+            low, high = turned.limits[output]
+            limits = drawn(low.value), drawn(high.value)
+        except Unsolvable as stop:  # no whole turn, not of all links, or an output that turns on and on
+            where, found = stop.problems[0].where, stop.problems[0].found
+            other = Phrase("where and what", where=where, found=found)
+            without[asked[0]] = found if where == str(asked[0]) else other
+            continue
+        if low.rest or high.rest:  # the strokes are not parted by two positions of the crank
+            marks = tuple(mark for mark in marks if mark != "theta")
+        measured = {r.symbol.kind: float(r.value.real) for r in read_off(turned) if r.symbol in asked}
+        break
     turn = _turn(structure, own)
     least = _least(structure, turn, drawn) if turn and "gamma" in marks else None
-    return Shown(own, limits, numbered, least, _paths(structure, turn, own) if turn else {}, measured, tuple(marks),
-                 {} if limits else without)  # fmt: skip
+    paths = _paths(structure, turn, own) if turn else {}
+    return Shown(own, output, limits, numbered, least, paths, measured, marks, {} if limits else without)
 
 
 def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
@@ -218,10 +217,8 @@ def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
     """The mechanism in several positions on one figure, at its true scale."""
     sheet, letters = page.sheet, page.letters
     numbered = [_position(position, letters, NUMBERED, f"position-{name}") for name, position in shown.numbered.items()]
-    limits = [
-        _position(position, letters, strokes.LIMIT, f"limit-{pair.replace('/', '-')}-{end}")
-        for pair, both in shown.limits.items() for end, position in zip(("low", "high"), both, strict=True)
-    ]  # fmt: skip
+    limits = [_position(position, letters, strokes.LIMIT, f"limit-{shown.output.replace('/', '-')}-{end}")
+              for end, position in zip(("low", "high"), shown.limits, strict=False)]  # fmt: skip
     least = []
     if shown.least is not None and "gamma" in shown.marks:
         least = [_position(shown.least[0], letters, NUMBERED, "least-transmission"), _gamma(shown)]
@@ -297,7 +294,7 @@ def _dimensions(shown: Shown, drawn: Piece) -> Piece:
     room = DimensionClearance(replace(ink, solid=ink.solid + ink.dashed, dashed=()), None)
     parts: list[Primitive] = []
     labels: list[Label] = []
-    for id, crossing, choices in (*_strokes(shown), *_swings(shown), *_crank(shown)):
+    for id, crossing, choices in (*_travel(shown), *_crank(shown)):
         taken = room.take(choices, 0 if crossing else 2, ends_on_line=crossing, crossing=crossing)
         if taken is not None:
             parts += taken
@@ -320,12 +317,11 @@ def _limits_of_crank(shown: Shown) -> tuple[float, complex, complex, complex] | 
     driven from another moving link, whose driver's value is no angle on the figure."""
     if not shown.own.scene.drivers[0].turns_about(shown.own.scene.frame.name):
         return None
-    for pair, both in shown.limits.items():
-        low, high = map(_crank_end, both)
-        lag = shown.measured.get(("theta_lag", pair))
-        if low is not None and high is not None and lag is not None and "theta" in shown.marks:
-            return lag, low[0], low[1] - low[0], high[1] - high[0]
-    return None
+    ends, lag = [*map(_crank_end, shown.limits)], shown.measured.get("theta_lag")
+    if not all(ends) or lag is None or "theta" not in shown.marks:
+        return None
+    (pivot, low), (_, high) = filter(None, ends)
+    return lag, pivot, low - pivot, high - pivot
 
 
 _Wanted: TypeAlias = tuple[str, bool, Sequence[Parts]]
@@ -359,29 +355,23 @@ def _crank(shown: Shown) -> Iterator[_Wanted]:
         yield "theta", True, _arcs(pivot, [size * radius for size in AROUND], start, start + turn, shown_lag)
 
 
-def _strokes(shown: Shown) -> Iterator[_Wanted]:
-    """Strokes of slides, dimensioned between the limit positions."""
-    metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
-    for pair, (low, high) in shown.limits.items() if "stroke" in shown.marks else ():
-        stroke = shown.measured.get(("stroke", pair))
-        if "/" in pair and stroke is not None:
-            a, b = (on_page(position.poses[pair.split("/")[0]].origin) for position in (low, high))
-            words = rich(sign("H") + f" = {number(stroke / metres, 6)} {unit}", 2.8)
-            if abs(b - a) > 1.0:
-                yield f"stroke-{pair.replace('/', '-')}", False, [dimension(a, b, offset, words) for offset in OFFSETS]
-
-
-def _swings(shown: Shown) -> Iterator[_Wanted]:
-    """Swings of links, dimensioned between the limit positions."""
-    for pair, (low, _) in shown.limits.items() if "stroke" in shown.marks else ():
-        swing = shown.measured.get(("swing", pair))
-        if "/" in pair or swing is None:
-            continue
-        pivot = next((p for p in low.structure.links[pair].points if p in low.scene.frame.points), None)
-        if pivot is not None:
-            begin = cmath.phase(low.poses[pair].axis)
-            words = rich(sign("ψ") + f" = {number(math.degrees(swing), 5)}°", 2.8)
-            yield f"swing-{pair}", True, _arcs(low.points[PointRef(pivot)], SWING_RADII, begin, begin + swing, words)
+def _travel(shown: Shown) -> Iterator[_Wanted]:
+    """The stroke of a slide or the swing of a link, dimensioned between the limit positions."""
+    output, units = shown.output, shown.own.scene.units
+    stroke, swing = (shown.measured.get(kind) for kind in ("stroke", "swing"))
+    if "stroke" not in shown.marks or not shown.limits:
+        return
+    if stroke is not None:
+        a, b = (on_page(position.poses[output.split("/")[0]].origin) for position in shown.limits)
+        words = rich(sign("H") + f" = {number(stroke / units.metres, 6)} {units.length}", 2.8)
+        if abs(b - a) > 1.0:
+            yield f"stroke-{output.replace('/', '-')}", False, [dimension(a, b, offset, words) for offset in OFFSETS]
+    elif swing is not None:
+        low, words = shown.limits[0], rich(sign("ψ") + f" = {number(math.degrees(swing), 5)}°", 2.8)
+        begin = cmath.phase(low.poses[output].axis)
+        pivots = (low.points[PointRef(p)] for p in low.structure.links[output].points if p in low.scene.frame.points)
+        for pivot in islice(pivots, 1):
+            yield f"swing-{output}", True, _arcs(pivot, SWING_RADII, begin, begin + swing, words)
 
 
 def _gamma(shown: Shown) -> Piece:
@@ -411,12 +401,13 @@ def _measured_lines(shown: Shown, page: FigurePage) -> list[RichText]:
         "theta_lag": ("θ", math.degrees(1.0), "°"), "K": ("K", 1.0, ""),
     }  # fmt: skip
     said: list[RichText] = []
-    for pair in shown.limits:
+    if shown.limits:
         values = spaced(",  ", (
-            sign(letter) + f" = {number(value * per, 7)}{after}" for kind, (letter, per, after) in kinds.items()
-            if (value := shown.measured.get((kind, pair))) is not None and (kind != "K" or "K" in shown.marks)
+            sign(letter) + f" = {number(shown.measured[kind] * per, 7)}{after}"
+            for kind, (letter, per, after) in kinds.items()
+            if kind in shown.measured and (kind != "K" or "K" in shown.marks)
         ))  # fmt: skip
-        said += page.said("positions of", pair=Neutral(pair), values=Neutral(values))
+        said += page.said("positions of", pair=Neutral(shown.output), values=Neutral(values))
     for symbol, why in shown.without.items():
         lines = page.said("no limits", output=page.letters.vector(symbol), reason=why)
         said += [line.with_words(in_sentence) for line in lines]

@@ -19,8 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Page, Polygon, Primitive, Scan, Stroke, Text
-from graphkin.drawing.ink.symbols import Shape
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.text import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
@@ -36,6 +35,7 @@ WIDTHS = (0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 
 """Widths of lines that the format knows, in hundredths of a millimetre."""
 STYLES = {"serif": "times.ttf", "serif-italic": "timesi.ttf", "serif-bold": "timesbd.ttf", "chinese": "simsun.ttc"}
 WHITE = ("#fff", "#ffffff")
+Stroked = Line | Polyline | Polygon | Circle | Arc
 PAPER = "paper"  # the layer of what stands in none
 _ALONE = Lock()
 
@@ -102,11 +102,9 @@ class _Board:
                 if thing.id and not thing.layer and inner:
                     self._named(thing.id, inner)
                 made += inner
-            elif isinstance(thing, Scan):
-                pass  # a DXF holds no pictures
             elif isinstance(thing, Text):
                 made += self._text(thing, layer)
-            else:
+            elif isinstance(thing, Stroked):  # a DXF holds no pictures
                 made += self._shape(thing, layer)
         return made
 
@@ -120,7 +118,7 @@ class _Board:
     def _at(self, z: complex) -> tuple[float, float]:
         return round(z.real, 6), round(self.height - z.imag, 6)
 
-    def _shape(self, thing: Shape, layer: str) -> list[DXFGraphic]:
+    def _shape(self, thing: Stroked, layer: str) -> list[DXFGraphic]:
         made = []
         fill = thing.fill if isinstance(thing, Polygon | Circle) else ""
         if fill and fill.lower() not in WHITE:
@@ -140,7 +138,7 @@ class _Board:
             made.append(self.space.add_lwpolyline(list(map(self._at, thing.points)), close=closed, dxfattribs=look))
         return made
 
-    def _filled(self, thing: Shape, fill: str, layer: str) -> DXFGraphic:
+    def _filled(self, thing: Stroked, fill: str, layer: str) -> DXFGraphic:
         look = {"layer": layer, "true_color": _colour(fill)}
         if isinstance(thing, Polygon) and len(thing.points) in (3, 4):
             corners = list(map(self._at, thing.points))
