@@ -18,13 +18,13 @@ from graphkin.account.given import (
 from graphkin.account.headings import remarks, term
 from graphkin.account.notation import Notation
 from graphkin.account.voice import Account
-from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
-from graphkin.construction.board.sheet import Reading, Sheet
+from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, row, table
 from graphkin.drawing.ink.primitives import Primitive, Run, Text
 from graphkin.drawing.text import rich, runs_width, wrapped
+from graphkin.scene.tables import Units
 from graphkin.words import languages, word
 from graphkin.words.symbols import RichText, Words, rate
 from graphkin.words.written import printed
@@ -36,14 +36,13 @@ _SHARES = (0.26, 0.18, 0.19, 0.19, 0.18)  # of the width: symbol, mm on paper, m
 
 @dataclass(frozen=True)
 class TableRow:
-    reading: Reading
-    compared: Compared | None = None
+    compared: Compared
     more: tuple[str, ...] = ()  # further links that turn alike
 
     @property
     def rank(self) -> int:
         """Order in the table: positions, velocities, rates, accelerations and their parts, rates."""
-        return -1 if self.reading.symbol.scope != "motion" else _LETTERS.get(self.reading.symbol.kind, 3)
+        return -1 if self.compared.symbol.scope != "motion" else _LETTERS.get(self.compared.symbol.kind, 3)
 
 
 def readings_table(
@@ -62,25 +61,21 @@ def readings_table(
     return drawn.moved(complex(area.left, area.top)).layers.get("answers", ()), len(rows)
 
 
-def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
+def table_rows(report: Report) -> list[TableRow]:
     """The readings of the table in order: without given rates; links that turn alike share a row."""
-    if report is not None:
-        rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope != "force"]
-    else:
-        found = (r for r in read_off(sheet, sheet.scene.question.find) if r.symbol.scope != "force")
-        rows = [TableRow(reading) for reading in found]
     shown: list[TableRow] = []
-    for entry in rows:
-        reading = entry.reading
-        if reading.symbol.is_vector or reading.symbol.scope != "motion":
-            shown.append(entry)
+    for compared in (one for one in report.rows if one.symbol.scope != "force"):
+        symbol = compared.symbol
+        if symbol.is_vector or symbol.scope != "motion":
+            shown.append(TableRow(compared))
             continue
-        turns = [(r.symbol.kind, r.value, r.on_paper) for r in (row.reading for row in (*shown, entry))]
+        readings = [entry.compared.reading for entry in shown] + [compared.reading]
+        turns = [(reading.symbol.kind, reading.value, reading.on_paper) for reading in readings]
         alike = turns.index(turns[-1])
         if alike < len(shown):
-            shown[alike] = replace(shown[alike], more=(*shown[alike].more, reading.symbol.link))
-        elif reading.on_paper:
-            shown.append(entry)
+            shown[alike] = replace(shown[alike], more=(*shown[alike].more, symbol.link))
+        elif compared.on_paper:
+            shown.append(TableRow(compared))
     return sorted(shown, key=lambda row: row.rank)
 
 
@@ -101,26 +96,20 @@ def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:
 def _column(
     sheet: Sheet, rows: Sequence[TableRow], letters: Notation, language: str, width: float, line: float
 ) -> Block:
-    shares = _SHARES if any(r.compared for r in rows) else (0.4, 0.25, 0.35)
-    heads = ("quantity", "on paper", "measured", "exact", "difference")[: len(shares)]
-    cells = [[*_texts(sheet, one, letters, language), "", ""][: len(shares)] for one in rows]
-    return table([[word(head, each) for head in heads] for each in languages(language)], cells,
-                 [width * share for share in shares], size=2.4, line=line, layer="answers")  # fmt: skip
+    heads = [[word(head, each) for head in ("quantity", "on paper", "measured", "exact", "difference")]
+             for each in languages(language)]  # fmt: skip
+    cells = [_texts(row, sheet.scene.units, letters, language) for row in rows]
+    return table(heads, cells, [width * share for share in _SHARES], size=2.4, line=line, layer="answers")
 
 
-def _texts(sheet: Sheet, row: TableRow, letters: Notation, language: str) -> list[Words]:
-    reading, compared = row.reading, row.compared
-    unit, units = reading.symbol.unit(sheet.scene.units).written, sheet.scene.units
-    name = letters.vector(reading.symbol)
-    if row.more:
-        name = rate(reading.symbol.kind, ",".join((reading.symbol.link, *row.more)))
-    texts: list[Words] = [name + f", {unit}" if unit else name, printed(paper(reading, compared)),
-             printed(measured(reading, units, compared))]  # fmt: skip
-    if compared is not None:
-        agrees = compared.uncertainty is None and compared.ok
-        texts += [printed(exact(compared, units)),
-                  term("agrees", language) if agrees else printed(deviation(compared, units))]  # fmt: skip
-    return texts
+def _texts(row: TableRow, units: Units, letters: Notation, language: str) -> list[Words]:
+    compared, reading, symbol = row.compared, row.compared.reading, row.compared.symbol
+    unit = symbol.unit(units).written
+    name = rate(symbol.kind, ",".join((symbol.link, *row.more))) if row.more else letters.vector(symbol)
+    agrees = compared.uncertainty is None and compared.ok
+    numbers = paper(reading, compared), measured(reading, units, compared), exact(compared, units)
+    difference = term("agrees", language) if agrees else printed(deviation(compared, units))
+    return [name + f", {unit}" if unit else name, *map(printed, numbers), difference]
 
 
 def given_lines(sheet: Sheet, letters: Notation, language: str, width: float, size: float) -> list[tuple[Run, ...]]:

@@ -15,10 +15,7 @@ import pytest
 import graphkin
 from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, svg_bytes
-from graphkin.drawing.boxes import FigurePage
-from graphkin.drawing.figures.sheet import sheet_page
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, walk
-from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.drawing.text import text_box
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.scene_tables import PAPERS
@@ -300,8 +297,7 @@ def test_no_two_feet_of_components_bear_the_same_name(convention):
 def on_paper(name: str, paper: str, orientation: str) -> Drawing:
     scene = mechanism_of(name)
     scene = scene.asking(sheet=replace(scene.question.sheet, paper=paper, orientation=orientation))
-    small = draft(scene, room=sheet_room(scene))
-    return sheet_page(FigurePage.of(small, "sheet", None, None))
+    return graphkin.draw(scene, figures=["sheet"]).figures["sheet"]
 
 
 @pytest.mark.parametrize("orientation", ["portrait", "landscape"])

@@ -14,6 +14,7 @@ from graphkin.construction import draft, plan
 from graphkin.drawing import Text
 from graphkin.drawing.ink.primitives import Group, Polygon, Polyline, walk
 from graphkin.drawing.parts.mechanism import mechanism_piece
+from graphkin.drawing.parts.polygon import details
 from graphkin.drawing.place.piece import ink_box
 from graphkin.drawing.sheet_plan import sheet_plan, sheet_room
 from graphkin.drawing.tables import table_rows
@@ -71,13 +72,21 @@ def test_a_vector_in_an_equation_is_bold_or_bears_an_arrow_and_its_magnitude_doe
 def test_every_reading_stands_on_a_sheet(language):
     drawn = draw("sixbar-AE70", language=language)
     rows = [text for text in pages(drawn) if re.search(r"\w, (mm|rad)/s²?$", text)]
-    assert len(table_rows(drawn.small.sheet, drawn.small.report)) == len(rows)
+    assert len(table_rows(drawn.small.report)) == len(rows)
 
 
 def test_a_sheet_that_goes_on_is_one_pdf_of_two_pages(tmp_path):
     draw("sixbar-1A-last-link", out=tmp_path, formats=("svg", "pdf"))
     assert {"sheet.svg", "sheet-2.svg", "sheet.pdf"} == {p.name for p in tmp_path.glob("sheet*")}
     assert b"/Count 2" in (tmp_path / "sheet.pdf").read_bytes()
+
+
+@pytest.mark.parametrize(("name", "at", "diagram"), [
+    ("shaper-scheme-2", 151, "acceleration"), ("double-butterfly", 33, "velocity"),
+])  # fmt: skip
+def test_small_vectors_near_each_other_share_an_inset(name, at, diagram):
+    (detail,) = details(draw(name, at=at, figures=[]).checked.sheet, diagram)
+    assert len(detail.vectors) == 2
 
 
 def test_vectors_that_would_cover_each_other_lie_side_by_side():
@@ -224,7 +233,7 @@ def test_a_guide_that_its_panel_cuts_keeps_its_letter(high, angle):
 @pytest.mark.parametrize("name", ["hydraulic-cylinder", "shaper-scheme-2", "sixbar-guide-40deg"])
 def test_a_sheet_says_of_as_many_readings_that_they_agree_as_its_table_shows(name):
     drawn = draw(name, figures=["sheet"])
-    rows = table_rows(drawn.checked.sheet, drawn.checked.report)
+    rows = table_rows(drawn.checked.report)
     (said,) = [text for text in pages(drawn) if "readings agree" in text]
     assert f"all {len(rows)} readings agree with the analytic solution" == said
 

@@ -55,12 +55,12 @@ LEAST, SMALLEST, NARROW = 46.0, 26.0, 40.0  # mm, least heights of a sketch and 
 APART, CLOSE, INSIDE = 4.0, 2.0, 0.6  # mm between groups, between the parts of one, and inside a frame
 
 
-def forces_figure(page: FigurePage, report: Report | None = None) -> Drawing:
+def forces_figure(page: FigurePage, report: Report) -> Drawing:
     """The forces of a drawn position on pages of the scene's paper.
 
     Parameters
     ----------
-    report : readings compared with the exact values; without it there is no table
+    report : readings compared with the exact values
     """
     sheet = page.sheet
     width, height = sheet.scene.question.sheet.size
@@ -70,10 +70,8 @@ def forces_figure(page: FigurePage, report: Report | None = None) -> Drawing:
     spare = page.height_for(below, height)
     needed = max((box.height for box in boxes), default=0.0) + 2 * page.prose(("force",)).height
     room, height = max(spare, needed), height + max(0.0, needed - spare)  # a larger paper for a wished scale
-    blocks = [_given(page), *_groups(page, room)]
-    if report is not None:
-        rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope == "force"]
-        blocks += _tables(page, rows)
+    rows = [TableRow(row) for row in report.rows if row.symbol.scope == "force"]
+    blocks = [_given(page), *_groups(page, room), *_tables(page, rows)]
     units = sheet.scene.units
     scales = {"length": sheet.scales.length * 1e3, "force": sheet.scales.force / units.newtons}
     first, *further = (

@@ -48,20 +48,20 @@ TABLE_WIDTH = 80.0  # mm: a narrower one has no room for its columns
 TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one line would have them smaller
 
 
-def sheet_page(page: FigurePage, report: Report | None = None) -> Drawing:
+def sheet_page(page: FigurePage, report: Report) -> Drawing:
     """The page of the sheet; parts without room are on its ``further`` pages.
 
     Parameters
     ----------
     page : its sheet drafted in ``sheet_room(scene)``, so that its polygons fill their panels
-    report : its readings compared with the exact values; without it the table shows the readings alone
+    report : its readings compared with the exact values
     """
     sheet = page.sheet
     plan = sheet_plan(sheet)
     velocity, acceleration, homeless = _polygons(page, plan)
     written = written_lines(sheet, page.letters, page.language)
     lines = [line_to_set(line, sheet, page.letters, page.language) for line in written]
-    rows = table_rows(sheet, report)
+    rows = table_rows(report)
     written_on = _writing(page, rows, lines, homeless)
     writing, rest = written_on(plan, GIVEN[0])
     if rest and plan.equations:
@@ -87,7 +87,7 @@ def sheet_page(page: FigurePage, report: Report | None = None) -> Drawing:
         heading(page, plan.page), _panel(page, "mechanism", plan.mechanism), _panel(page, "velocity", plan.velocity),
         _mechanism(page, plan.mechanism), velocity, *writing,
         _below(plan.page, fitted(term("step number", page.language, number="(9)"), 2.4, 0.7 * plan.page.width)),
-        title_block(page, [row.compared for row in rows if row.compared], plan.block),
+        title_block(page, [row.compared for row in rows], plan.block),
     ]  # fmt: skip
     further = continuation(page, rest, plan.page)
     for kind in ("plan", "loops") if sheet.scene.question.sheet.loops else ("plan",):
