@@ -104,7 +104,8 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichT
 
 
 def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[RichText]:
-    """``ω_2 = ω_1``: links that slide on a driven one turn as it does, unless a line tells its rate as a sum."""
+    """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum, whose line tells
+    it."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
     rates = sheet.rates[kind]
     told = {step.link for step in sheet.steps if isinstance(step, RateStep) and step.reason == "sum of rates"}
@@ -218,7 +219,8 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
             return
     under = next((s for s in sheet.structure.slides if s.pin == of.point and of.link in (s.a, s.b)), None)
     if under is not None and of.point in frame.points:
-        yield _coincident(of, PointRef(of.point, under.b if of.link == under.a else under.body), under)
+        other = PointRef(of.point, under.b if of.link == under.a else under.body)
+        yield _coincident(of, other, under)
 
 
 def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:

@@ -121,7 +121,8 @@ def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
     """Whether a link holds both ends, or one of them is not on the drawing."""
     if any(PointRef(name) not in sheet.points for name in bar):
         return True
-    return any(set(bar) <= set(body.points) for body in (sheet.scene.frame, *sheet.scene.links))
+    bodies = (sheet.scene.frame, *sheet.scene.links)
+    return any(set(bar) <= set(body.points) for body in bodies)
 
 
 # -- rates -------------------------------------------------------------------------------------------------------------

@@ -203,7 +203,8 @@ class InForces(Telling):
             yield ends + self.name(v.symbol, v.part) + f" = {sum_},  {pointing(v.span)}°"
 
     def _closed_by(self) -> Phrase | None:
-        """The ends of the chain through which the lines of the unknown forces go; None without a chain, or a line."""
+        """The ends of the chain through which the lines of the unknown forces go; None where there is no chain, or no
+        line."""
         known = [vector for step in self.group.by("known forces") for vector in step.forces]
         if not known:
             return None

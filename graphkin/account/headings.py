@@ -178,7 +178,8 @@ def _sentence(said: Phrase, language: str) -> str:
             return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
         return plain(thing).replace("@", "")
 
-    return _capital(say(said, language, shown)).rstrip("。.") + word("full stop", language)
+    text = say(said, language, shown)
+    return _capital(text).rstrip("。.") + word("full stop", language)
 
 
 def _capital(text: str) -> str:

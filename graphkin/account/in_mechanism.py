@@ -207,7 +207,8 @@ class InMechanism(Telling):
         return Phrase("in turn", first=self.plain, second=told)
 
     def _positions_lines(self, language: str) -> Iterator[Phrase]:
-        """Trial positions: the moved quantity, how each point is found, the gap, and the value that closes it."""
+        """Trial positions: the moved quantity, the construction of each point, the gap, and the value that closes
+        it."""
         trial = self.step
         out, moved, rolled = map(listed, (trial.left_out, trial.driven, trial.rolling))
         fitted = Phrase("written trial", left_out=out, moved=moved)
@@ -313,7 +314,8 @@ class InMechanism(Telling):
         return Phrase("missed guide", **off_guide, guide=name) if name else Phrase("missed guide of link", **off_guide)
 
     def _moved(self, moved: Symbol) -> Phrase:
-        """A moved quantity of trial positions: a travel, the angle of a link or its bar, the angle between two."""
+        """A moved quantity of trial positions: a travel, the angle of a link or of its bar, or the angle between
+        two."""
         links = self.sheet.structure.links
         if moved.kind == "s":
             return Phrase("trial travel", slide=moved.pair)

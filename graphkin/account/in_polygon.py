@@ -123,7 +123,8 @@ class InPolygon(Telling):
         return None if self.places is None or abs(self.places[0]) < SAME else self._before(self.step.symbol)
 
     def _before(self, symbol: Symbol | None) -> Symbol | None:
-        """The vector at whose end this one begins: that before it in the equation as written, else the last drawn."""
+        """The vector at whose end this one begins: the vector before it in the equation as written, else the last drawn
+        one."""
         drawn: dict[Symbol, complex] = {}
         for one in self.sheet.before(self.step):
             for stroke in one.strokes if one.diagram == self.step.diagram else ():
@@ -415,7 +416,9 @@ class InPolygon(Telling):
         return Phrase("superposed one", between=self._left_open(), open=rows, sum=quotients[0].terms, rates=rates)
 
     def _superposed_lines(self, language: str) -> Iterator[Phrase]:
-        """The measured gaps of each trial, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, and the proportional division."""
+        """The measured gaps, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional
+        division.
+        """
         divided, symbol = self.step, self.account.letters.vector
         trials = trials_of(self.sheet, divided)
         numerals = [sign(roman(trial.trial)) for trial in trials]

@@ -131,7 +131,8 @@ class PolygonPoints:
         return tuple(feet)
 
     def _components(self) -> Iterator[NamedPoint]:
-        """The ends of components, then of known ones that lead to a special point or are laid off before their turn."""
+        """The ends of components, then of known components that lead to a special point or are laid off before their
+        turn."""
         for step, vector in self._vectors.values():
             if vector.role not in ("resultant", "relative") and abs(vector.span) >= ZERO:
                 yield NamedPoint(vector.tip, symbol=vector.symbol, role=vector.role, step=step)

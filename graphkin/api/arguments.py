@@ -170,7 +170,8 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
         return {scene.drivers[0].key: value_at(scene, at)}
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
     # the whole key first: a link that slides may be turned too
-    known = {**{d.key.split("/")[0]: d for d in reversed(scene.drivers)}, **{d.key: d for d in scene.drivers}}
+    known = {d.key.split("/")[0]: d for d in reversed(scene.drivers)}
+    known |= {d.key: d for d in scene.drivers}
     values: dict[str, float] = {}
     for name, value in given.items():
         driver = known.get(str(name))

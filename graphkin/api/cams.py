@@ -226,7 +226,8 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
     courses: list[tuple[str, bool, tuple[Array, Array, Array | None, Array]]] = []
     for cam in scene.cams:
         at = cam_at(cam, turned)
-        courses.append((cam.link, cam.turns, (at.lift, at.profile, None if cam.flat else at.pitch, at.pressure)))
+        course = at.lift, at.profile, None if cam.flat else at.pitch, at.pressure
+        courses.append((cam.link, cam.turns, course))
     courses += [(disc.link, disc.swings, disc_course(structure_of(scene), disc, turned)) for disc in discs]
     parts: list[list[Array]] = []
     for _, swings, (lift, profile, pitch, pressure) in courses:

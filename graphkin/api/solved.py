@@ -227,8 +227,7 @@ class Solved(OfScene, Result):
                 kept = ("driver", "time", "name", "status", "why", "error_bound")
                 entry = {key: entry[key] for key in kept if key in entry}
                 if entry["status"] == "ok":
-                    known = {name: bool(np.isfinite(values[k]).all()) for name, values in asked.items()}
-                    entry["values"] = {n: values[k].tolist() if known[n] else None for n, values in asked.items()}
+                    entry["values"] = {name: _finite(values[k]) for name, values in asked.items()}
             yield entry
 
     def _plain(self, name: str) -> NDArray[np.float64]:
@@ -264,6 +263,11 @@ class Solved(OfScene, Result):
     def json(self) -> Iterator[bytes]:
         """``data`` as the text of JSON, piece by piece."""
         return (piece.encode() for piece in json_text(self.head, self.entries()))
+
+
+def _finite(value: NDArray[np.float64] | NDArray[np.complex128]) -> float | list[float] | None:
+    """A number or the components of a vector for JSON; None where it is not known."""
+    return value.tolist() if np.isfinite(value).all() else None
 
 
 def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:

@@ -73,7 +73,8 @@ def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCent
         tolerance, most, ok = math.inf, largest[symbol.kind], None
         if value is not None:
             of = centres.turning_of(symbol.of or PointRef("", symbol.link))
-            chain, most = () if of is None else of.chain, max(most, 1e-300)
+            chain = () if of is None else of.chain
+            most = max(most, 1e-300)
             rounded = float(motion.bounds_in_double()[1][0]) / (1.0 if symbol.is_vector else size)
             tolerance = max(TOLERANCE * most, rounded, SAFETY * centres.velocity_error(symbol))
             ok = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance

@@ -280,7 +280,8 @@ def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, Value]]) -> dict[Symbo
 
 
 def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
-    """The angle from the exact direction of a vector to the drawn one (rad); 0 for one too short beside ``whole``."""
+    """The angle from the exact direction of a vector to the drawn one (rad); 0 for a vector too short beside
+    ``whole``."""
     if not reading.symbol.is_vector or min(abs(reading.value), abs(exact)) <= 1e-7 * whole:
         return 0.0
     return cmath.phase(complex(reading.value) / complex(exact)) + 0.0  # no minus before nought

@@ -143,7 +143,8 @@ class Evidence:
 
     @cached_property
     def _stages(self) -> Stages:
-        return Stages(self.plan, self.plan.scales, own_values=partial(_own_values, self.plan, self.sheet))
+        of_person = partial(_own_values, self.plan, self.sheet)
+        return Stages(self.plan, self.plan.scales, own_values=of_person)
 
     def following(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
         """The value of a symbol, drawn from the person's own values of other symbols (SI).
@@ -391,7 +392,8 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
 
 
 def _sort(symbol: Symbol) -> str:
-    """The kind of a quantity by a common name; an arm of the lever, a velocity on paper, is a kind of its own."""
+    """The kind of a quantity by a common name; an arm of the lever, which is a velocity on paper, is a kind of its
+    own."""
     return "arm" if symbol.kind == "arm" else symbol.measure.name
 
 
@@ -600,7 +602,8 @@ def _gear_slips(motion: Motion) -> Iterator[Alteration]:
             yield slip("slip teeth exchanged", gear, 0.08, {gear: turned})
             yield slip("slip teeth sense", gear, 0.1, {gear: outside})
         if scene.frame.name not in (gear.carrier, *gear.bodies):
-            yield slip("slip carrier", gear, 0.1, {gear: replace(gear, carrier=scene.frame.name)})
+            standing = replace(gear, carrier=scene.frame.name)
+            yield slip("slip carrier", gear, 0.1, {gear: standing})
         if two is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
             swapped = {(gear.bodies[0], abs(one)): abs(two), (gear.bodies[1], abs(two)): abs(one)}
             yield slip("slip teeth exchanged", gear, 0.08, {g: _with(g, swapped) for g in scene.gears})

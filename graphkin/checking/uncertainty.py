@@ -165,7 +165,8 @@ def _bent(
 
 
 def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """The errors of all acts (deviations, sum of squares 1) that change a reading most: along its principal axis."""
+    """The errors of all acts, in deviations, with a sum of squares of 1, that change a reading most: along its
+    principal axis."""
     parts = np.stack((row.real, row.imag))
     axis = np.linalg.eigh(parts @ parts.T)[1][:, 1]
     errors = axis @ parts

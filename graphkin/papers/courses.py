@@ -158,7 +158,10 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     """
     table = table_of(students)
     heads = [head.strip().lower() for head in table.heads]
-    columns = {role: heads.index(head) for role, names in HEADS.items() for head in reversed(heads) if head in names}
+    columns = {
+        role: heads.index(head) for role, names in HEADS.items()
+        for head in reversed(heads) if head in names
+    }  # fmt: skip
     if "name" not in columns and "id" not in columns:
         raise CallError.of(str(students), "no column of names", "write a head name or id",
                            names=some_of(table.heads))
@@ -325,7 +328,11 @@ def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
         if value:
             yield Paragraph(said(f"course {key}", language, **{gap: value}))
     yield Paragraph(place)
-    blanks = ["name of student"] * (not student.name) + ["class of student"] * (not student.id)
+    blanks = []
+    if not student.name:
+        blanks.append("name of student")
+    if not student.id:
+        blanks.append("class of student")
     yield Fields(said_each(language, (*blanks, "course teacher", "date")))
     yield Picture(mechanism_picture(lesson))
 

@@ -374,13 +374,11 @@ def result_cells(lesson: Lesson) -> Iterator[dict[str, Words]]:
         placed, is_length = row.symbol.scope == "position", row.symbol.is_vector or row.symbol.measure.is_length
         size = line.exact if placed else abs(line.exact)
         read, right = measured(row.reading, units, row), exact(row, units)
-        # a sense is in words, a place keeps its sign
-        shown = [text if _is_place(row.symbol) else text.removeprefix("−") for text in map(printed, (read, right))]
         tolerance, accept = accepted(size, line.tolerance or 0.0, -math.inf if placed else 0.0)
         yield {
             "quantity": lesson.letters.vector(row.symbol),
             "on paper": printed(paper(row.reading, row)) if is_length else "–",  # a rate has no length of its own
-            "measured": shown[0], "exact": shown[1], "value": number(size, 5),
+            "measured": unsigned(row, printed(read)), "exact": unsigned(row, printed(right)), "value": number(size, 5),
             "course difference": f"{100 * abs(float(read) / float(right) - 1.0):.2f}" if float(right) else "–",
             "tolerance": tolerance, "accept": accept, "unit": line.unit, "sense": way(row, lesson.language),
         }  # fmt: skip
@@ -452,6 +450,11 @@ def head_of(symbol: Symbol, units: Units) -> str:
     """A quantity with its unit, as the head of a column."""
     unit = symbol.unit(units).text
     return f"{symbol} ({unit})" if unit else str(symbol)
+
+
+def unsigned(row: Compared, text: str) -> str:
+    """A value without its sign where its sense is in words; a place keeps its sign."""
+    return text if _is_place(row.symbol) else text.removeprefix("−")
 
 
 def _is_place(symbol: Symbol) -> bool:
@@ -638,7 +641,8 @@ def _leads_on(stage: Stage, after: Stage | None) -> bool:
 
 
 def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragraph | Picture]:
-    """The head of an equation's steps: the equation over its rows, its reasons; ``count`` numbers their figure."""
+    """The head of an equation's steps: the equation over its rows, and its reasons; ``count`` is the number of their
+    figure."""
     equation = stage.equation
     assert equation is not None
     where = dict(said("see figure", lesson.language, figure=count))

@@ -170,7 +170,8 @@ def candidate(source: Tables, spread: Spread, seed: int, number: int, attempt: i
 
 def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> float:
     if kind == "angle":
-        angle = spread.angle_step * dice.randrange(round(360.0 / spread.angle_step))
+        turn = round(360.0 / spread.angle_step)
+        angle = spread.angle_step * dice.randrange(turn)
         return angle if angle <= 180.0 else angle - 360.0
     if kind == "teeth":
         few, many = (round(abs(value) * (1 + sign * spread.teeth)) for sign in (-1, 1))
@@ -330,7 +331,8 @@ def _on_its_face(made: OwnTables, contact: PlacedContact) -> bool:
     if guide is None or face.partition(".")[0] != str(frame.get("name", "0")) or not isinstance(guide["through"], list):
         return False
     normal = cmath.rect(1.0 if contact.left else -1.0, math.radians(guide["angle"]) + math.pi / 2)
-    distance = ((complex(*drawn) - complex(*guide["through"])) * normal.conjugate()).real
+    through = complex(*guide["through"])
+    distance = ((complex(*drawn) - through) * normal.conjugate()).real
     place = complex(*drawn) + normal * (abs(_disc(made, wheel)) - distance)
     made["drawn"][centre] = [float(f"{part:.12g}") for part in (place.real, place.imag)]
     return True
@@ -359,7 +361,8 @@ def _vary(source: Tables) -> Tables:
 
 
 def _path_of_number(source: Tables, key: str) -> KeyPath | None:
-    """The place of a number by its key with dots, ``frame.points.D.x``, ``driver.2.angle``; None without one."""
+    """The place of a number by its key with dots: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``; None
+    where there is no number."""
     path = path_of_key(source, key)
     value = None if path is None else value_at(source, path)
     return None if isinstance(value, bool) or not isinstance(value, int | float) else path
@@ -393,7 +396,8 @@ def _paths(source: Tables, keys: Iterable[str]) -> list[KeyPath]:
 
 
 def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: Mapping[str, float]) -> None:
-    """Draw the numbers with a range, compute the tied ones; ``step_of``: the steps of angles by their last key."""
+    """Draw the numbers with a range, and compute the tied ones; ``step_of`` gives the steps of angles by the last
+    key."""
     table = _vary(source)
     ranges = table.get("ranges", {})
     for path, (low, high) in zip(_paths(source, ranges), ranges.values(), strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
@@ -77,6 +77,11 @@ def paper_of(scene: Mechanism) -> Paper:
 NAMES = ("length", "velocity", "acceleration")
 
 
+def _scales(choice: Callable[[str], float]) -> Scales:
+    """The scale of each figure."""
+    return Scales(*map(choice, NAMES))
+
+
 def paper_plan(
     of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], share: bool = True
 ) -> Plan:
@@ -99,7 +104,7 @@ def paper_plan(
     wished = {name: getattr(scene.question.sheet, f"{name}_scale") for name in NAMES}
     if paper != A4:
         scales, filled = fitted.scales, fitted.exact.scales_for(paper.room(FILLED))
-        fitted = replace(fitted, scales=Scales(*(getattr(scales if wished[name] else filled, name) for name in NAMES)))
+        fitted = replace(fitted, scales=_scales(lambda name: getattr(scales if wished[name] else filled, name)))
     fits = _fits(fitted, paper)
     if not all(fits.values()):
         larger = _larger(fitted, paper, wished)
@@ -107,7 +112,7 @@ def paper_plan(
             whole = of if isinstance(of, Mechanism) else of.scene
             return paper_plan(whole.asking(sheet=replace(whole.question.sheet, paper=larger)), values, asked, share)
         scales, roomed = fitted.scales, fitted.exact.scales_for(paper.room(MOST))
-        fitted = replace(fitted, scales=Scales(*(getattr(scales if fits[name] else roomed, name) for name in NAMES)))
+        fitted = replace(fitted, scales=_scales(lambda name: getattr(scales if fits[name] else roomed, name)))
     return _sharing(fitted, paper, wished) if share else fitted
 
 

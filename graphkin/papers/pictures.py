@@ -60,7 +60,8 @@ def parts(lesson: Lesson, diagram: DiagramName) -> Layers:
 def _cropped(
     lesson: Lesson, children: Iterable[Primitive], title: str, desc: str, diagram: DiagramName | None = None
 ) -> Drawing:
-    """Primitives as a drawing of their own size; below a diagram its scale, the check bar beside or under it."""
+    """Primitives as a drawing of their own size; below those of a diagram the scale, and its check bar beside or under
+    it."""
     first = languages(lesson.language)[0]
     children = tuple(children)
     box = (ink_box(children) or Box(0.0, 0.0, 10.0, 10.0)).grown(1.2)

@@ -313,7 +313,8 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
     sheet, language = lesson.sheet, lesson.language
     if not sheet.forces:
         return
-    scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), languages(language)[0])
+    first = languages(language)[0]
+    scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
     for turn, (stage, load, items) in enumerate(force_stages_of(lesson)):
         name, svg, group = str(stage.figure), "", stage.group
         title = said_html(said(stage.title.key, language, **stage.title.gaps))

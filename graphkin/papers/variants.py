@@ -139,7 +139,8 @@ def _led(scene: Mechanism) -> Iterator[Symbol]:
 
 
 def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Symbol]:
-    """Further questions on larger groups: the motion of the points that they find, the rates of their links."""
+    """Further questions on a mechanism's larger groups: the motion of the points that they find, the rates of their
+    links."""
     known = set(scene.frame.points)
     for group in analyse(scene).elements:
         links = [scene.by_name[name] for name in group.members if name in scene.by_name]

@@ -269,7 +269,10 @@ def audit(
 def _problems(
     scene: Mechanism, people: Sequence[Answers], variants: str | os.PathLike[str] | Mapping[str, SceneLike] | None
 ) -> dict[str, Mechanism]:
-    """The scene of each variant in the answers; "" is the scene itself.  Raises CallError for an unknown variant."""
+    """The scene of each variant in the answers; "" is the scene itself.
+
+    Raises CallError for answers to an unknown variant.
+    """
     named = sorted({who.variant for who in people if who.variant})
     if not named:
         return {"": scene}

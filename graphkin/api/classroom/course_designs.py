@@ -160,7 +160,9 @@ def course_design(
     course = {name: scheme_of(name, own, asked_symbols(own, find), count) for name, own in mechanisms.items()}
     if students is None:
         place = at if isinstance(at, str) else ""
-        dealt = [(Student(scheme=name, place=place), driver_values(own.scene, at)) for name, own in course.items()]
+        dealt = [
+            (Student(scheme=name, place=place), driver_values(own.scene, at)) for name, own in course.items()
+        ]
     else:
         dealt = [(who, scheme_for(who, course).values(who.place)) for who in dealt_out(students, course)]
     content: dict[str, bytes] = {}

@@ -241,8 +241,10 @@ def _jobs(
         if not varied_keys(source):
             raise CallError.of("variants", "nothing in the scene can vary", "give lengths and a driver")
         spread = spread if spread.reach else replace(spread, reach=_reach(as_scene(source)))
-        seed, digits = whole_number("seed", seed, -MOST_SEED, MOST_SEED), max(2, len(str(count)))
-        return [Job(f"{number:0{digits}d}", number, source, spread, seed) for number in range(1, count + 1)], ()
+        seed = whole_number("seed", seed, -MOST_SEED, MOST_SEED)
+        digits = max(2, len(str(count)))
+        jobs = [Job(f"{number:0{digits}d}", number, source, spread, seed) for number in range(1, count + 1)]
+        return jobs, ()
     table, data, others = _data_of(source, rows)
     return list(_jobs_of_rows(source, data, others, table.rows)), tuple(table.heads[i] for i in others[1:])
 

@@ -155,7 +155,8 @@ def write_design_papers(
     CallError : an unknown format, a folder that cannot be written
     """
     known_words(formats, known_formats=("html", "pdf"))
-    return write_files(own_folder(folder, designed.given.name), design_papers(designed, formats))
+    target = own_folder(folder, designed.given.name)
+    return write_files(target, design_papers(designed, formats))
 
 
 def _notes(designed: Designed, language: str) -> list[Said]:
@@ -175,7 +176,8 @@ def _notes(designed: Designed, language: str) -> list[Said]:
 
 def _sentences(of: Designed | CamMade, language: str) -> list[Said]:
     """The sentences on a result, each in the languages of a sheet."""
-    return list(zip(*([(each, text) for text in of.sentences(each)] for each in languages(language)), strict=True))
+    spoken = ([(each, text) for text in of.sentences(each)] for each in languages(language))
+    return list(zip(*spoken, strict=True))
 
 
 def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str = "cam-") -> Mapping[str, bytes]:
