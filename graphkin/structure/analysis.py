@@ -606,15 +606,11 @@ def _sliding_loop(structure: Structure) -> list[str]:
 
 def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapping[int, Unknown]) -> Problem:
     """Name the overconstrained links and the free ones (the parts of Dulmage and Mendelsohn)."""
-    users: dict[Unknown, list[int]] = {}
-    for i, row in enumerate(unknowns):
-        for u in row:
-            users.setdefault(u, []).append(i)
     owner = {u: i for i, u in given.items()}
     unserved = (i for i in range(len(unknowns)) if i not in given)
     over = reached(unserved, lambda i: [owner[u] for u in unknowns[i] if u in owner])
     every = ((n, a) for n in _nodes(structure) for a in ("xyt" if n[0] == "link" else "xy"))
-    free = reached((u for u in every if u not in owner), lambda u: [given[i] for i in users.get(u, []) if i in given])
+    free = reached((u for u in every if u not in owner), lambda u: [v for i, v in given.items() if u in unknowns[i]])
 
     def names(unknowns_there: Iterable[Unknown]) -> object:
         links = {name for (kind, name), _ in unknowns_there if kind == "link"}
