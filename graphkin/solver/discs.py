@@ -48,8 +48,12 @@ class DiscCam:
 
 
 def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
-    """The discs that the driver of a mechanism turns about the frame, with the followers that they move.  Raises
-    Unsolvable where the driver makes no whole turn."""
+    """The discs that the driver of a mechanism turns about the frame, with the followers that they move.
+
+    Raises
+    ------
+    Unsolvable : the driver makes no whole turn
+    """
     scene = structure.scene
     cams = [(c, *sides) for c in scene.contacts if (sides := _sides(scene, c)) is not None]
     if not cams:

@@ -120,8 +120,12 @@ def own_values(scene: Mechanism) -> Array:
 
 
 def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:
-    """The scene's driver values, with those given by driver key replaced, shape (drivers,).  Raises CallError for a key
-    that is no driver, and for a value that is no number."""
+    """The scene's driver values, with those given by driver key replaced, shape (drivers,).
+
+    Raises
+    ------
+    CallError : a key that is no driver, a value that is no number
+    """
     goal = own_values(scene)
     keys = [d.key for d in scene.drivers]
     for key, value in (at or {}).items():

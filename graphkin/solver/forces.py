@@ -342,8 +342,12 @@ class Forces:
 
 @kept_with  # they are found together, and asked for one by one
 def forces_of(motion: Motion) -> Forces:
-    """All forces of a scene that has masses or loads, at each position of its motion.  Raises Unsolvable as
-    `actions`."""
+    """All forces of a scene that has masses or loads, at each position of its motion.
+
+    Raises
+    ------
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
     return Forces(motion, tuple(actions(motion)))
 
 
@@ -375,9 +379,13 @@ class Action:
 
 
 def actions(motion: Motion) -> Iterator[Action]:
-    """All known actions on the links: inertia force -m a and inertia couple -J alpha (d'Alembert) and weight of each
-    mass, then loads and springs, of the two forces of a spring one may act on the frame.  Raises Unsolvable where a
-    load acts on a part of a stroke, and the driver makes no whole turn."""
+    """All known actions on the links: inertia force -m a and inertia couple -J alpha (d'Alembert)
+    and weight of each mass, then loads and springs, of the two forces of a spring one may act on the frame.
+
+    Raises
+    ------
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
     loading = motion.scene.loading
     for mass in loading.masses:
         centre = motion.poses[mass.link].fixed(mass.at)

@@ -204,8 +204,12 @@ def at_given_speed(structure: Structure) -> Structure:
 
 
 def from_dead_point(structure: Structure) -> Structure:
-    """The structure of the same scene with the value of its driver, which is given from a dead point.  Raises
-    Unsolvable ("dead point") where there is none of that kind, or several and none is named."""
+    """The structure of the same scene with the value of its driver, which is given from a dead point.
+
+    Raises
+    ------
+    Unsolvable : "dead point": there is none of that kind, or several and none is named
+    """
     scene = structure.scene
     driver = scene.drivers[0]
     assert driver.distance is not None

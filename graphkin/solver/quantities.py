@@ -116,7 +116,11 @@ def all_slides(structure: Structure) -> tuple[Pair, ...]:
 
 def value_of_symbol(posed: Posed, symbol: Symbol) -> Array:
     """The value of a quantity of the motion or of the position: complex for vectors, real for others (SI), shape (n,).
-    Raises CallError for a symbol that means nothing in this mechanism, belongs to the whole turn, or is a force."""
+
+    Raises
+    ------
+    CallError : a symbol that means nothing in this mechanism, or belongs to the whole turn, or is a force
+    """
     if symbol.kind in VALUES:
         return np.asarray(_value(posed, symbol))
     if symbol.scope == "force":

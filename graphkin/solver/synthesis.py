@@ -87,8 +87,12 @@ def _lag(K: float, most: float | None = None) -> float:
 
 @singledispatch
 def synthesise(task: DesignTask) -> Synthesis:
-    """Find the lengths.  Raises Unsolvable where no mechanism of this kind meets the wish, with the nearest value that
-    one can meet."""
+    """Find the lengths.
+
+    Raises
+    ------
+    Unsolvable : no mechanism of this kind meets the wish, with the nearest value that one can meet
+    """
     raise TypeError(task)
 
 

@@ -90,8 +90,12 @@ def _of_turn(motion: Motion, symbol: Symbol) -> float:
 
 @kept_with
 def forces_here(motion: Motion) -> Forces:
-    """The forces at the single position of a motion.  Raises Unsolvable ("dead point") where the balance does no
-    work."""
+    """The forces at the single position of a motion.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work
+    """
     from graphkin.solver.forces import forces_of, without_line
 
     whole = motion.scene.whole  # the mechanism with cams itself, where another replaces it; the links move alike
@@ -124,8 +128,12 @@ def rounding_of(motion: Motion, symbols: Iterable[Symbol], of_forces: bool = Fal
     compared too.
 
     Where they are more than slight beside the motion of the drivers they are given for the links of each quantity: near
-    a dead point of one group the links before it stay certain.  Raises Unsolvable ("dead point") where the balance does
-    no work."""
+    a dead point of one group the links before it stay certain.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work
+    """
     force = float(forces_here(motion).bound[0][0]) if of_forces else 0.0
     size = motion.structure.scene.size
     rate, second = (float(driven[0]) for driven in motion.driven)
@@ -146,7 +154,12 @@ def rounding_of(motion: Motion, symbols: Iterable[Symbol], of_forces: bool = Fal
 def _of_forces_here(motion: Motion, symbol: Symbol) -> Value:
     """A force (N), moment (N m), shift of an inertia force (m) or arm on Zhukovsky's lever (m/s: the power of a force
     over its size) at the single position of a motion; of a mechanism at rest an arm belongs to a unit rate of the
-    driver.  Raises Unsolvable ("dead point") where the balance does no work."""
+    driver.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work
+    """
     forces = forces_here(motion)
     if symbol.kind == "h":
         force, moment = (forces.values[Symbol(kind, link=symbol.link)][0] for kind in ("Fi", "Mi"))
@@ -249,8 +262,12 @@ NO_WORK = 1e-12
 
 @kept_with
 def flywheel_of(reach: DriverRange) -> FlywheelStudy:
-    """The flywheel that a scene asks for.  Raises Unsolvable where the driver makes no whole turn, the link does not
-    turn on and on, or the mechanism is at rest."""
+    """The flywheel that a scene asks for.
+
+    Raises
+    ------
+    Unsolvable : the driver makes no whole turn, the link does not turn on and on, or the mechanism is at rest
+    """
     wanted = reach.scene.loading.flywheel
     assert wanted is not None
     if not reach.driver.turns or not reach.full or len(reach.scene.drivers) > 1:
@@ -330,7 +347,11 @@ SAMPLES = 720
 
 def load_edges(reach: DriverRange) -> Array:
     """The offsets at which a load begins, ends or reverses, in increasing order, the ends of the range included.
-    Raises Unsolvable where a load acts on a part of a stroke, and the driver makes no whole turn."""
+
+    Raises
+    ------
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
     low, high = reach.ends
     found: list[float] = []
     for load in reach.scene.loading.loads:

@@ -89,7 +89,11 @@ def played(
 ) -> tuple[Motion, dict[str, NDArray[np.float64]]]:
     """The motion over the whole range of the first driver, from these values (rad, m) on: a turn, or there and back,
     slower towards the ends, so that the last frame is the first again; and the angle of each link from its first (rad).
-    Raises Unsolvable for a wrong mobility, and where the start cannot be assembled or reached."""
+
+    Raises
+    ------
+    Unsolvable : wrong mobility, the start cannot be assembled or reached
+    """
     reach = driver_range(structure_of(steady(scene)), values)
     low, high = reach.ends
     offsets = np.linspace(0.0, high, frames + 1)

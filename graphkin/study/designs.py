@@ -191,8 +191,12 @@ def applied(source: Tables, keys: Sequence[str], values: Sequence[Value]) -> Own
     """A scene's mapping with some numbers replaced.
 
     Keys are those of the file with dots: ``links.1.length``, ``frame.points.D.x`` (or ``.1``: items of lists are
-    counted from 1, as in messages), ``driver.omega``, ``driver.2.angle`` of the second ``[[driver]]``.  Raises
-    CallError, naming every key that the scene does not have."""
+    counted from 1, as in messages), ``driver.omega``, ``driver.2.angle`` of the second ``[[driver]]``.
+
+    Raises
+    ------
+    CallError : naming every key that the scene does not have
+    """
     made = copy.deepcopy(dict(source))
     problems = []
     for key, value in zip(keys, values, strict=True):

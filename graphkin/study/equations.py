@@ -234,7 +234,12 @@ class Equations:
 
 
 def context() -> MPContext:
-    """An mpmath context of 50 digits.  Raises CallError where mpmath is not installed."""
+    """An mpmath context of 50 digits.
+
+    Raises
+    ------
+    CallError : mpmath is not installed
+    """
     try:
         from mpmath import MPContext
     except ImportError:
@@ -264,8 +269,12 @@ def reference(structure: Structure, mp: MPContext) -> Equations:
 def refined(
     equations: Equations, mp: MPContext, x: Digits, values: Digits, first: Digits, second: Digits
 ) -> Solution:
-    """Position and rates to 50 digits from a start near by.  Raises ArithmeticError where Newton's method does not
-    close the equations from there."""
+    """Position and rates to 50 digits from a start near by.
+
+    Raises
+    ------
+    ArithmeticError : Newton's method does not close the equations from there
+    """
     at = np.array([mp.mpf(v) for v in x], dtype=object)
     for _ in range(STEPS):
         new = equations.improved(at, values)

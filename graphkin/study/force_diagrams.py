@@ -84,7 +84,11 @@ def jumps_of(curve: charts.Array) -> list[int]:
 def force_extremes(reach: DriverRange) -> dict[str, tuple[Symbol, tuple[Extreme, ...]]]:
     """The greatest and the least of each joint force by size, and of each couple and balance that is not zero, over the
     driver's range (SI); infinite where it grows without bound, at an end of the motion or where a balance does no work.
-    Raises Unsolvable where a load acts on a part of a stroke, and the driver makes no whole turn."""
+
+    Raises
+    ------
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
     quantities = [force for force in forces_named(reach.scene) if force.kind in ("F", "M")]
     axis = charts.DriverAxis(reach)
     offsets = whole_turn(axis)

@@ -128,8 +128,12 @@ def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Symbol, ...]]:
 
 
 def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbol]:
-    """The given quantity, and the derived or integrated one.  Raises CallError for no such quantity, or one without a
-    sign; for no result of it; for a driver that does not move evenly."""
+    """The given quantity, and the derived or integrated one.
+
+    Raises
+    ------
+    CallError : no such quantity, or one without a sign; no result of it; a driver that does not move evenly
+    """
     chains = {str(symbol): (chain, k) for chain in ordinate_chains(scene) for k, symbol in enumerate(chain)}
     if name not in chains:
         raise CallError.of(Phrase("quantity of name", name=f"{name:.60}"), "is no quantity with a sign here",

@@ -146,8 +146,12 @@ class PreparedMechanisms:
         return with_dimensions(self.ready.structure.scene, changed)
 
     def reach(self, k: int) -> DriverRange:
-        """The range of a design by its number, in the assembly that the mechanism has at its own position.  Raises
-        Unsolvable, SceneError where it cannot be assembled."""
+        """The range of a design by its number, in the assembly that the mechanism has at its own position.
+
+        Raises
+        ------
+        Unsolvable, SceneError : it cannot be assembled
+        """
         scene = self.mechanism(k)
         structure, own_modes = analyse(scene), self.ready.range.modes(np.zeros(1))
         modes = choose_modes(structure)

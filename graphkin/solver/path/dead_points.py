@@ -47,8 +47,12 @@ class DeadPoint:
 
 def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     """All dead points of all assemblies within half a turn (four sizes of the mechanism) of a value of its driver; of
-    more than seven groups those of the first seven (``not_tried`` names the links of the others).  Raises Unsolvable
-    for a larger group, whose dead points are known only along its motion."""
+    more than seven groups those of the first seven (``not_tried`` names the links of the others).
+
+    Raises
+    ------
+    Unsolvable : it has a larger group, whose dead points are known only along its motion
+    """
     from graphkin.solver.path.driver_path import FAR, MOST_GROUPS, Path
 
     for group in structure.larger_groups:

@@ -23,8 +23,12 @@ SAME = 1e-9
 
 def named_positions(scene: Mechanism) -> Mapping[str, float]:
     """The value of the first driver at each position that a scene names (rad, m), an angle within half a turn of the
-    driver's own; empty where it names none.  Raises Unsolvable for a position on the stroke of a slide without a whole
-    turn."""
+    driver's own; empty where it names none.
+
+    Raises
+    ------
+    Unsolvable : a position lies on the stroke of a slide, but there is no whole turn
+    """
     positions = scene.question.positions
     if positions is None:
         return {}
@@ -76,8 +80,12 @@ def name_at(scene: Mechanism, positions: Mapping[str, float], value: float) -> s
 
 def standing(scene: Mechanism) -> Mechanism:
     """A scene with the values and rates of its drivers computed: at a named position, at a distance from a dead point,
-    and from the speed of a point.  Raises Unsolvable where no position of the driver leads to the stroke that is named,
-    or the point rests there."""
+    and from the speed of a point.
+
+    Raises
+    ------
+    Unsolvable : no position of the driver leads to the stroke that is named, or the point rests there
+    """
     there = _at_its_position(scene)
     if any((d.distance is not None and not d.exact) or d.given_speed for d in there.drivers):
         return structure_of(there).scene
@@ -88,7 +96,12 @@ def _at_its_position(scene: Mechanism) -> Mechanism:
     """A scene with its driver at a named position, its value computed.
 
     The assembly is that of the position itself: the value is searched from positions around the turn, and taken where
-    it reproduces itself.  Raises Unsolvable where no position of the driver leads to the stroke that is named."""
+    it reproduces itself.
+
+    Raises
+    ------
+    Unsolvable : no position of the driver leads to the stroke that is named
+    """
     first = scene.drivers[0] if scene.drivers else None
     if first is None or not first.position:
         return scene
