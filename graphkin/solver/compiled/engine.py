@@ -154,7 +154,7 @@ class State:
 
 def positions(
     structure: Structure,
-    drive: Drive,
+    drive: Drive | None,
     modes: Mapping[int, Array],
     upto: int | None = None,
     rates: bool = True,
@@ -165,7 +165,7 @@ def positions(
 
     Parameters
     ----------
-    drive : of the drivers
+    drive : of the drivers; None for the scene's own position
     modes : the assembly of each group, by its place among the elements: for a dyad the sign, shape (n,); for a larger
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
@@ -180,7 +180,7 @@ def positions(
     State; at a position that cannot be assembled the discriminant of a group is negative and the poses have no meaning
     """
     with np.errstate(all="ignore"):
-        run = _Run(structure, drive, modes, rates, extended, {} if known is None else known)
+        run = _Run(structure, drive, modes, rates, extended, known)
         return run.state(len(structure.elements) if upto is None else upto, whole=known is None)
 
 
@@ -189,8 +189,7 @@ def own_position(
 ) -> State:
     """The mechanism at the scene's own position, without rates; ``modes`` are those of one position, the other
     parameters as for ``positions``."""
-    here = {i: mode[None] for i, mode in modes.items()}
-    return positions(structure, Drive.at(structure), here, upto, rates=False, known=known)
+    return positions(structure, None, {i: mode[None] for i, mode in modes.items()}, upto, rates=False, known=known)
 
 
 def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mapping[str, Pose]) -> dict[str, complex]:
@@ -216,21 +215,22 @@ def group_at(structure: Structure, drive: Drive, modes: Mapping[int, Array], whi
         return run.larger_groups[which]
 
 
-@dataclass(eq=False, repr=False)
 class _Run:
-    """An evaluation, as of ``positions``: larger groups in order, each from the links on which it depends, then all
-    formulas together."""
+    """An evaluation: larger groups in order, each from the links on which it depends, then all formulas together."""
 
-    structure: Structure
-    drive: Drive
-    modes: Mapping[int, Array]
-    rates: bool
-    extended: bool = True
-    known: dict[int, float] | None = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        structure, modes = self.structure, self.modes
-        drive = self.drive = self.drive.followed(structure)
+    def __init__(
+        self,
+        structure: Structure,
+        drive: Drive | None,
+        modes: Mapping[int, Array],
+        rates: bool,
+        extended: bool = True,
+        known: dict[int, float] | None = None,
+    ) -> None:
+        drive = (Drive.at(structure) if drive is None else drive).followed(structure)
+        self.structure, self.drive, self.modes = structure, drive, modes
+        self.rates, self.extended = rates, extended
+        self.known: dict[int, float] | None = {} if known is None else known
         self.n = len(drive)
         self.larger_groups: dict[int, GroupSolved] = {}
         self.slack: list[Array] = []
@@ -438,7 +438,7 @@ def discriminant_of(
     drive : positions whose driver values are taken as decimals; the scene's own if None
     """
     known = {**{j: mode for j, mode in modes.items() if j < i}, i: np.ones(1)}
-    run = _Run(structure, Drive.at(structure) if drive is None else drive, known, False)
+    run = _Run(structure, drive, known, False)
     program = run.dimensioned.program
     return run._extended(program.code(("closing", i), [program.groups[i].discriminant]))
 

@@ -16,7 +16,15 @@ from graphkin.solver.compiled.engine import SINGULAR, State, new_places, own_pos
 from graphkin.solver.drivers import own_values
 from graphkin.solver.quantities import Posed
 from graphkin.solver.sentences import driver_text
-from graphkin.structure import Driven, Dyad, LargerGroup, Structure, named_with_contact, pick, started
+from graphkin.structure import (
+    Driven,
+    Dyad,
+    LargerGroup,
+    Structure,
+    named_with_contact,
+    pick,
+    started,
+)
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, Wording
 
