@@ -89,9 +89,11 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
     with np.errstate(all="ignore"):
         if cam.flat:
             assert isinstance(motion, SlidingFollower)
-            normal, leaning, leaning_rate = way, 0.0 * s1, 0.0 * s1
+            normal = way
             contact = motion.along * (cam.base + s0 - 1j * s1)
-            radius, radius_rate = cam.base + s0 + s2, s1 + sense * np.asarray(lift.jerk)
+            radius = cam.base + s0 + s2
+            leaning = leaning_rate = 0.0 * s1
+            radius_rate = s1 + sense * np.asarray(lift.jerk)
         else:
             size, turn = np.abs(tangent), cross(tangent, tangent_rate)
             normal = 1j * tangent / size

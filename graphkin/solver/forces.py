@@ -80,7 +80,8 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
 def balances(motion: Motion) -> Iterator[PairForce]:
     """The balancing loads: for each driver a moment or a force between the two links that it moves relatively, or the
     scene's own balance."""
-    scene, said = motion.scene, motion.scene.loading.balance
+    scene = motion.scene
+    said = scene.loading.balance
     if said is not None:
         pose = motion.poses[said.link]
         along = None if not said.is_force else said.turn * np.asarray(pose.u) if said.follows else said.turn

@@ -122,7 +122,8 @@ def with_sensible_guides(structure: Structure) -> Structure:
 
     Only dyads up to the first larger group are examined.
     """
-    free, found = _free_guides(structure), list[tuple[tuple[int, ...], State]]()
+    free = _free_guides(structure)
+    found: list[tuple[tuple[int, ...], State]] = []
     if not free or _reached(structure, ()) is not None:
         return structure
     for count in range(1, len(free) + 1):

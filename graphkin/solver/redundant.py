@@ -125,7 +125,8 @@ def _on_guide(
 ) -> Pose | None:
     if not slides or not shared:
         return None
-    pair, (point, holder) = slides[0], next(iter(shared.items()))
+    pair = slides[0]
+    point, holder = next(iter(shared.items()))
     guide = poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
     at = poses[holder].fixed(scene.by_name[holder].points[point])
     return at.pinned(rest(link.points[point]), guide.u * pair.turn, guide.omega, guide.alpha)

@@ -230,8 +230,8 @@ def _of_form(system: Constraints) -> tuple[Array, Array, Sequence[Array]]:
     structure, layout = system.structure, system.layout
     if "bounds" not in structure.kept:
         depending = _depending(structure, layout.names[: layout.members])
-        hanging, reached = np.kron(depending, np.ones((3, 3))), _reached(layout, depending)
-        structure.kept["bounds"] = hanging, reached, _written(layout)
+        hanging = np.kron(depending, np.ones((3, 3)))
+        structure.kept["bounds"] = hanging, _reached(layout, depending), _written(layout)
     known: tuple[Array, Array, Sequence[Array]] = structure.kept["bounds"]
     return known
 

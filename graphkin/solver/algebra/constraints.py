@@ -196,7 +196,8 @@ def led_relation(element: Driven) -> RollingRelation:
 @kept_with
 def _all_together(structure: Structure) -> LargerGroup:
     """All links as a group; for a cam's follower its own part alone."""
-    pairs, rolling = list[Pair](), list[RollingRelation]()
+    pairs: list[Pair] = []
+    rolling: list[RollingRelation] = []
     for e in structure.elements:
         pairs += e.all_pairs
         rolling += [led_relation(e)] if isinstance(e, Driven) and not e.drivers else e.rolling

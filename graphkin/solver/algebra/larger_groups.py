@@ -67,7 +67,8 @@ class GroupSolved:
     @cached_property
     def _bending(self) -> Array:
         """The greatest change of the matrix with the scaled unknowns, both as roots of squares."""
-        size, poses = self.system.structure.scene.size, (*self.poses.values(), *self.system.known.values())
+        size = self.system.structure.scene.size
+        poses = [*self.poses.values(), *self.system.known.values()]
         reach = 1 + np.max(np.broadcast_arrays(*(np.abs(p.z) / size for p in poses)), axis=0)
         return np.asarray(4 * reach * self.matrix.shape[1] ** 0.5)
 

@@ -270,7 +270,8 @@ class _Run:
     def state(self, upto: int, whole: bool = True) -> State:
         """The mechanism up to an element, or of it the last element alone."""
         self.follow(upto)
-        elements, program = self.structure.elements[:upto], self.dimensioned.program
+        elements = self.structure.elements[:upto]
+        program = self.dimensioned.program
         first = 0 if whole else upto - 1
         names = [n for e in elements[first:] for n in e.members]
         dyads = [i for i in self.structure.dyads if first <= i < upto]

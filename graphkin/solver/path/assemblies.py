@@ -128,9 +128,9 @@ def _choose_sign(
             pick(scene, links, [new_places(structure, i, links, states[0].poses)], 0)
         return np.array(sign), both[sign < 0]
     if not solved.discriminant[0] >= -TOUCH:
-        where, way = named_with_contact(structure, dyad), _other_way(structure, i, modes)
-        way = way or _nearest(structure, i, modes)
-        raise Unsolvable("not assembled", Problem(where, "they do not reach each other in the", way))
+        named = named_with_contact(structure, dyad)
+        way = _other_way(structure, i, modes) or _nearest(structure, i, modes)
+        raise Unsolvable("not assembled", Problem(named, "they do not reach each other in the", way))
     if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0), both[0]
     candidates = [new_places(structure, i, links, state.poses) for state in states]

@@ -367,7 +367,8 @@ class DriverRange:
         if rates:
             drive = Drive(drive.value, *(np.zeros_like(drive.value) for _ in rates))
             drive.rate[:, 0], drive.second[:, 0] = rates
-        part, good = within / abs(self.wide), self.reaches(offset)
+        part = within / abs(self.wide)
+        good = self.reaches(offset)
         why = "" if good.all() or not extended else self.limit_why
         at_start = {i: mode[0] for i, mode in self.ahead.mode(np.zeros(1)).items()}
         motion = motion_of(self.structure, drive, self.modes(part), at_start, good, why, extended)
