@@ -154,7 +154,7 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     return Motion(structure, values, np.full(n, status), (why,) * n, poses, None, accuracy, reach)
 
 
-# -- the motion at moments in time, where drivers move by laws: their rates change from one moment to the --------------
+# the motion at moments in time, where drivers move by laws
 
 
 def over_time(of: Mechanism | Structure, times: Array, extended: bool = True) -> Motion:

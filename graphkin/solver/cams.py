@@ -179,7 +179,7 @@ def follower_inputs(cam: LawCam, turn: Array) -> Mapping[str, Array]:
             "second": motion.side * lift.second}  # fmt: skip
 
 
-# -- what is to be said of a cam: pressure angles and their extremes, curvature and undercutting, rates,  --------------
+# the study of a cam: pressure angles, curvature and undercutting, rates
 
 
 NODES = 97

@@ -59,8 +59,7 @@ def pair_forces(motion: Motion) -> Iterator[PairForce]:
 
 
 def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array], Array]:
-    """The directions and the place of a joint's forces: the normal of a sliding contact, the tangent of pitch circles
-    whose centres another link holds apart, both components for a turning pair or other rolling."""
+    """The directions and the place of a joint's forces: of rolling both components, but of wheels the tangent alone."""
     both = 1 + 0j, 1j
     if joint.kind == "turning":
         return both, motion.position(joint.point)
@@ -352,7 +351,7 @@ def forces_of(motion: Motion) -> Forces:
     return Forces(motion, tuple(actions(motion)))
 
 
-# -- what acts on the links of a motion from outside: inertia forces, weights, loads, each where and while it acts -----
+# what acts on the links of a motion from outside: inertia forces, weights, loads, each where and while it acts
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -472,7 +471,7 @@ def _acting(motion: Motion, load: LoadOn) -> tuple[Array, Array]:
     return np.asarray(acts), np.asarray(edge)
 
 
-# -- values by symbol --------------------------------------------------------------------------------------------------
+# values by symbol
 
 
 def value_of(motion: Motion, symbol: Symbol) -> Array:

@@ -271,7 +271,7 @@ class Motion:
         return value
 
 
-# -- centrodes ---------------------------------------------------------------------------------------------------------
+# the points and the sliding pairs of a scene
 
 
 def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[str, str], ...]:

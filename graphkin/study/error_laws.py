@@ -23,7 +23,7 @@ LOST = 0.03  # an error beyond this (relative, rad) is no longer of first order 
 PER_DECADE = 2
 
 
-# -- what is measured --------------------------------------------------------------------------------------------------
+# what is measured
 
 
 @dataclass(frozen=True)
@@ -163,7 +163,7 @@ def _binned(
     return tuple(xs), tuple(es)
 
 
-# -- in numbers --------------------------------------------------------------------------------------------------------
+# in numbers
 
 
 def in_powers(value: float) -> str:
@@ -242,7 +242,7 @@ def lessons(singularities: Sequence[Singularity]) -> tuple[Phrase, ...]:
     return tuple(phrases)
 
 
-# -- as charts ---------------------------------------------------------------------------------------------------------
+# as charts
 
 WIDTH, HEIGHT = 210.0, 297.0
 LEFT, TOP = 10.0, 38.0

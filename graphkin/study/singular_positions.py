@@ -94,7 +94,7 @@ class Turning:
         return float(turned), *(float(abs(rate / right - 1)) for rate, right in zip(rates, self.rates, strict=True))
 
 
-# -- dead points of dyads ----------------------------------------------------------------------------------------------
+# dead points of dyads
 
 FAR, NEAR = 0.3, 1e-15  # rad
 NEARBY = (1e-12, 1e-2)  # rad; over which slopes are fitted
@@ -234,7 +234,7 @@ def _newton(
         yield Answer(right[e].off(u, float(omega), float(alpha))[1:2], bool(lost))
 
 
-# -- formulas that lose digits -----------------------------------------------------------------------------------------
+# formulas that lose digits
 
 TRIALS = 6  # at each distance, of which the worst counts
 
@@ -296,7 +296,7 @@ def angle_formulas(mp: MPContext, samples: int = 4) -> Singularity:
     return Singularity("angle near zero", "angle of two lines", laws, fates)
 
 
-# -- differences in place of rates -------------------------------------------------------------------------------------
+# differences in place of rates
 
 
 def differences(mp: MPContext, samples: int = 4) -> Singularity:
@@ -359,7 +359,7 @@ def _worst(values: Array, right: Array) -> float:
     return float(np.max(np.abs(values - right)) / np.max(np.abs(right)))
 
 
-# -- instant centre of nearly parallel lines ---------------------------------------------------------------------------
+# instant centre of nearly parallel lines
 
 SEEDS = 12  # drawings of a pencil
 
@@ -417,7 +417,7 @@ def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:
     return Singularity("parallel lines", "angle of two lines", laws, fates)
 
 
-# -- guide bars --------------------------------------------------------------------------------------------------------
+# guide bars
 
 FLOOR = 1e-17  # of the charts
 BESIDE_PIVOT = (1e-8, 0.03)  # over which slopes are fitted beside the pivot of a bar
@@ -559,7 +559,7 @@ def slow_sliding(mp: MPContext, samples: int = 4) -> Singularity:
     return Singularity("slow sliding", "crank from line", laws, fates)
 
 
-# -- a drawing made small ----------------------------------------------------------------------------------------------
+# a drawing made small
 
 POINTS_ONLY = Tools(line_width=0.2, ruler=0.0, compass=0.0, set_square=0.0, protractor=0.0)
 
@@ -598,7 +598,7 @@ def drawing_scale(mp: MPContext, samples: int = 1) -> Singularity:
     return Singularity("small scale", "crank on paper", laws, (fate,))
 
 
-# -- all of them -------------------------------------------------------------------------------------------------------
+# all of them
 
 KINDS: dict[str, Callable[..., Singularity]] = {
     "dead point RRR": partial(dead_point, "RRR"),

@@ -558,7 +558,7 @@ def _in_one_column(parts: list[Array], lengths: Sequence[int], n: int) -> Array:
     return np.concatenate(spread)
 
 
-# -- quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variat --------------
+# quantities of the whole turn
 
 
 BESIDE = 1e-4
