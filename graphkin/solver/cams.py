@@ -299,7 +299,7 @@ def _extremes(cam: LawCam, part: LiftPiece, of: str, rate: str) -> Iterator[AtDe
     """A field of the cam at the ends of a part and at the zeros of its rate, another field."""
     def at(field: str, degree: Array) -> Array:
         values = getattr(cam_with(cam, degree, part.at(degree, np)), field)
-        return np.asarray(np.broadcast_to(values, degree.shape))
+        return np.broadcast_to(values, degree.shape)
 
     def changing(degree: Array) -> tuple[Array, Array]:
         return at(rate, degree)[:, None], np.zeros((len(degree), 1))

@@ -515,7 +515,7 @@ def settled(value: Array, floor: Array) -> Array:
     """Values, 0 where they are not above what rounding amounts to; complex ones by their parts."""
     if np.iscomplexobj(value):
         return settled(value.real, floor) + 1j * settled(value.imag, floor)
-    return np.asarray(np.where(np.abs(value) <= floor, 0.0, value))
+    return np.where(np.abs(value) <= floor, 0.0, value)
 
 
 def senses_along(motion: Motion, symbol: Symbol) -> Array | None:

@@ -114,7 +114,7 @@ def pole_path(motion: Motion, pair: LinkPair) -> NDArray[np.complex128]:
     fastest = np.max([np.abs(p.omega) for p in motion.poses.values()], axis=0)
     turns = motion.ok & (np.abs(omega) > NO_TURNING * fastest)
     with np.errstate(all="ignore"):
-        return np.asarray(np.where(turns, q / omega, complex(np.nan, np.nan)))
+        return np.where(turns, q / omega, complex(np.nan, np.nan))
 
 
 def branches(places: NDArray[np.complex128], joined: NDArray[np.bool_]) -> list[list[complex]]:

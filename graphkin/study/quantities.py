@@ -84,7 +84,7 @@ def _bound(quantity: Symbol, motion: Motion) -> Array:
     # none of a quantity of further links, as a transmission angle
     moves = quantity.scope == "motion" or quantity.is_of_output
     bound = motion.accuracy.of(links_for(motion.structure, quantity) if moves else ()).of(quantity.measure)
-    return np.asarray(np.where(np.isfinite(bound), ends_of(quantity) * bound, 0.0))
+    return np.where(np.isfinite(bound), ends_of(quantity) * bound, 0.0)
 
 
 def link_quantities(link: str) -> tuple[Symbol, Symbol, Symbol]:

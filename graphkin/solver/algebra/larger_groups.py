@@ -55,7 +55,7 @@ class GroupSolved:
         with np.errstate(all="ignore"):
             finite = np.asarray(np.where(known[:, None, None], self.matrix, 0.0), dtype=float)
             least = np.linalg.svd(finite, compute_uv=False)[:, -1]
-            return np.asarray(np.where(known, 1 / np.maximum(least, 1e-300), np.inf))
+            return np.where(known, 1 / np.maximum(least, 1e-300), np.inf)
 
     def same_assembly(self, place: Array) -> bool:
         """Whether a place nearby (rows, 3) certainly belongs to the same assembly, whatever the rates there: by the

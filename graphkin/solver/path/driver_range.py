@@ -245,7 +245,7 @@ class DriverRange:
             return np.asarray(np.remainder(offset, abs(self.wide)))
         within = np.remainder(offset, 2 * np.pi)
         within = np.where(within <= self.ends[1], within, within - 2 * np.pi)
-        return np.asarray(np.where(self.reaches(offset), offset, within))
+        return np.where(self.reaches(offset), offset, within)
 
     def reaches(self, offset: Array) -> Array:
         """Whether the motion reaches these offsets, shape (n,)."""
