@@ -60,17 +60,17 @@ class CamAt:
     @property
     def pressure(self) -> Array:
         """Pressure angle (rad), in 0 .. pi/2."""
-        return np.asarray(np.minimum(np.abs(self.leaning), np.pi - np.abs(self.leaning)))
+        return np.minimum(np.abs(self.leaning), np.pi - np.abs(self.leaning))
 
     @property
     def pitch(self) -> Array:
         """The pitch curve in the cam's own axes, from its axis (m)."""
-        return np.asarray(self.point * np.conj(self.turn))
+        return self.point * np.conj(self.turn)
 
     @property
     def profile(self) -> Array:
         """The profile in the cam's own axes, from its axis (m)."""
-        return np.asarray(self.contact * np.conj(self.turn))
+        return self.contact * np.conj(self.turn)
 
 
 def cam_at(cam: LawCam, degree: Array) -> CamAt:
@@ -116,7 +116,7 @@ def slip_of(cam: LawCam, at: CamAt, omega: Array) -> Array:
     else:
         follower = 1j * motion.side * rate * (cam.axis + at.contact - motion.centre)
     slip = 1j * omega * at.contact - follower
-    return np.asarray(slip - at.normal * dot(at.normal, slip))  # without what rounding leaves across
+    return slip - at.normal * dot(at.normal, slip)  # without what rounding leaves across
 
 
 def lifts(law: FollowerLaw, angle: Array) -> Lift:
@@ -146,7 +146,7 @@ def greatest_jerk(law: FollowerLaw) -> float:
 
 def cam_angle(cam: LawCam, turn: Array) -> Array:
     """The angle of the law (rad) where the cam's own axis points along unit complex numbers."""
-    return np.asarray(cam.sense * np.angle(turn))
+    return cam.sense * np.angle(turn)
 
 
 def meeting_followers(structure: Structure) -> Structure:
@@ -348,7 +348,7 @@ def _too_sharp(cam: LawCam, part: LiftPiece, degree: Array) -> Array:
     radius of the convex pitch curve."""
     at = cam_with(cam, degree, part.at(degree, np))
     turning = at.radius < -SAME * cam.base  # at its limit a cam has an edge, but does not turn back
-    return np.asarray(turning if cam.flat else turning & (at.radius + cam.roller > 0.0))
+    return turning if cam.flat else turning & (at.radius + cam.roller > 0.0)
 
 
 def _impacts(law: FollowerLaw) -> tuple[tuple[AtDegree, ...], tuple[AtDegree, ...]]:

@@ -100,14 +100,14 @@ def balances(motion: Motion) -> Iterator[PairForce]:
 def _foot(motion: Motion, slide: Pair) -> Array:
     """The place of a sliding pair's force: the pin, the first point of the sliding link, or its origin."""
     at = motion.structure.links[slide.body].points[slide.pin] if slide.pin else 0j
-    return np.asarray(motion.poses[slide.body].fixed(at).z)
+    return motion.poses[slide.body].fixed(at).z
 
 
 def _square(motion: Motion, slide: Pair) -> complex | Array:
     """Direction square to a guide, to its left."""
     if slide.b == motion.scene.frame.name:
         return 1j * slide.guide.direction
-    return np.asarray(1j * slide.guide.direction * motion.poses[slide.b].u)
+    return 1j * slide.guide.direction * motion.poses[slide.b].u
 
 
 EPS = float(np.finfo(float).eps)
@@ -145,7 +145,7 @@ class Forces:
 
     def _arm(self, link: str, at: Array) -> Array:
         """The vector from a link's origin to a place, over the size."""
-        return np.asarray((at - self.motion.poses[link].z) / self._size)
+        return (at - self.motion.poses[link].z) / self._size
 
     def _equations(self) -> tuple[Array, Array, Array]:
         """Equilibrium of each link, three rows each: both components of force, and moment about its origin over the
@@ -336,7 +336,7 @@ class Forces:
             own = self.values.get(known)
             if own is not None:
                 jumped = self.beside.get(known) if symbol.plus else None
-                return np.asarray(sign * (own if jumped is None else np.where(np.isnan(jumped), own, jumped)))
+                return sign * (own if jumped is None else np.where(np.isnan(jumped), own, jumped))
         return None
 
 
@@ -374,7 +374,7 @@ class Action:
         """Its power (W), shape (n,)."""
         pose = motion.poses[self.link]
         if self.at is None:
-            return np.asarray(self.value * pose.omega)
+            return self.value * pose.omega
         return np.asarray((np.conj(pose.v + 1j * pose.omega * (self.at - pose.z)) * self.value).real)
 
 
@@ -424,7 +424,7 @@ def without_line(motion: Motion) -> dict[SpringOn, Array]:
 
 
 def _has_line(motion: Motion, length: Array) -> Array:
-    return np.asarray(length > EDGE * motion.scene.size)
+    return length > EDGE * motion.scene.size
 
 
 def _load(motion: Motion, load: LoadOn) -> Action:
@@ -447,9 +447,9 @@ def _force(motion: Motion, load: LoadOn) -> Array:
         most = np.max(np.nan_to_num(speeds), axis=0) + np.abs(growing.poses[slide.b].omega) * scene.size
         _, speed, *_ = growing.slide(slide.key)
         sign = np.where(np.abs(speed) > 1e-12 * most, np.sign(speed), 0.0)
-        return np.asarray(-load.size * sign * motion.poses[slide.b].u * slide.guide.direction)
+        return -load.size * sign * motion.poses[slide.b].u * slide.guide.direction
     if load.follows:
-        return np.asarray(load.size * load.turn * motion.poses[load.follows].u)
+        return load.size * load.turn * motion.poses[load.follows].u
     return np.full(len(motion), load.size * load.turn)
 
 
@@ -484,7 +484,7 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     """
     if symbol.along:
         vector, sense = value_of(motion, symbol.whole), senses_along(motion, symbol)
-        return np.asarray(vector.real if sense is None else (vector * sense.conjugate()).real)
+        return vector.real if sense is None else (vector * sense.conjugate()).real
     if symbol.scope != "force":
         return motion.value(symbol)
     if symbol.axis:
@@ -534,5 +534,5 @@ def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
         else:
             along = slide.pin == of.point == to.point and {of.link, to.link} - {""} <= {slide.a, slide.b}
         if along:
-            return np.asarray(motion.poses[slide.b].u * slide.guide.direction)
+            return motion.poses[slide.b].u * slide.guide.direction
     return None

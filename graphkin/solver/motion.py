@@ -147,15 +147,15 @@ class Motion:
 
     def position(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m)."""
-        return np.asarray(self.point(point, link).z)
+        return self.point(point, link).z
 
     def velocity(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m/s)."""
-        return np.asarray(self.point(point, link).v)
+        return self.point(point, link).v
 
     def acceleration(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m/s2)."""
-        return np.asarray(self.point(point, link).a)
+        return self.point(point, link).a
 
     def angle(self, link: str) -> Array:
         """Angle of the link's own x axis (rad): in (-pi, pi] at the first ok position, continuous from there."""
@@ -177,11 +177,11 @@ class Motion:
 
     def omega(self, link: str) -> Array:
         """real, shape (n,) (rad/s), counter-clockwise positive."""
-        return np.asarray(self.poses[self.link(link).name].omega)
+        return self.poses[self.link(link).name].omega
 
     def alpha(self, link: str) -> Array:
         """real, shape (n,) (rad/s2), counter-clockwise positive."""
-        return np.asarray(self.poses[self.link(link).name].alpha)
+        return self.poses[self.link(link).name].alpha
 
     def slide(self, key: str) -> tuple[Array, Array, Array, Array]:
         """Travel, velocity and acceleration of a sliding pair or pin in slot by its key ("2/3", "B/3"), signed along

@@ -213,7 +213,7 @@ class PreparedMechanism:
         ends = np.abs(self.range.start) + abs(self.range.wide) * (np.arange(len(scene.drivers)) == 0)
         followers = [abs(d.values[0]) + float(np.abs(d.ratios) @ ends) for d in self.structure.followers]
         turning = np.array([d.turns for d in self.structure.drivers])
-        return np.asarray(GIVEN * np.array([*ends, *followers]) + PRODUCTS * UNIT * turning)
+        return GIVEN * np.array([*ends, *followers]) + PRODUCTS * UNIT * turning
 
     @cached_property
     def code(self) -> Code:

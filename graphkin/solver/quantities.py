@@ -179,7 +179,7 @@ def _pressure(posed: Posed, symbol: Symbol) -> Array:
         from graphkin.solver.cams import cam_at
 
         return cam_at(cam, cam.sense * np.angle(posed.pose(cam.link).u)).pressure
-    return np.asarray(np.pi / 2 - _crossing(posed.poses, joint_of_follower(posed.structure, symbol.link, symbol)))
+    return np.pi / 2 - _crossing(posed.poses, joint_of_follower(posed.structure, symbol.link, symbol))
 
 
 def _gamma(posed: Posed, symbol: Symbol) -> Array:

@@ -60,7 +60,7 @@ def contact_normal(motion: Motion, contact: PlacedContact) -> Array:
     arm = motion.position(contact.name) - motion.position(contact.centres[0], link)
     normal = arm / (radius if link == contact.bodies[0] else -radius)
     with np.errstate(invalid="ignore"):  # of positions that are none
-        return np.asarray(normal / np.abs(normal))
+        return normal / np.abs(normal)
 
 
 def contact_pressure(motion: Motion, contact: PlacedContact) -> dict[str, Array]:

@@ -167,8 +167,8 @@ class DriverAxis(Axis):
         low, high = self.reach.ends
         if not self.reach.full:
             half = np.linspace(0, np.pi, POINTS)
-            return np.asarray(low + (high - low) * np.sin(half / 2) ** 2)
-        return np.asarray((np.linspace(0.0, high, POINTS) + self.first) % high)
+            return low + (high - low) * np.sin(half / 2) ** 2
+        return (np.linspace(0.0, high, POINTS) + self.first) % high
 
     @cached_property
     def motion(self) -> Motion:
@@ -195,7 +195,7 @@ class DriverAxis(Axis):
         high = reach.ends[1]
         along = (np.asarray(places) - self.first) % high
         along = np.where(along > high * (1 - 1e-12), 0.0, along)
-        return np.asarray(np.degrees(along if reach.sense > 0 else high - along))
+        return np.degrees(along if reach.sense > 0 else high - along)
 
     def values(self, quantity: Symbol, places: Array) -> Array:
         places = places % self.reach.ends[1] if self.reach.full else places
@@ -245,7 +245,7 @@ class DriverAxis(Axis):
             # an angle that is measured tells no whole turns
             read = read + 2 * np.pi * np.rint((self.values(quantity, at) - read) / (2 * np.pi))
         points = np.stack([self.at(at), self.shown(quantity, at, read)], axis=1)
-        return np.asarray(points[np.isfinite(points).all(axis=1)])
+        return points[np.isfinite(points).all(axis=1)]
 
 
 # a panel

@@ -129,7 +129,7 @@ class Equations:
     def improved(self, x: Array, values: Sequence[Values]) -> Array:
         """One step of Newton's method."""
         matrix, gaps = self._system(x, values)
-        return np.asarray(x - self.numbers.solve(matrix, gaps))
+        return x - self.numbers.solve(matrix, gaps)
 
     def open(self, x: Array, values: Sequence[Values]) -> Array:
         """The residual of each equation (m, rad)."""

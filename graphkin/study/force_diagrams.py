@@ -51,7 +51,7 @@ def whole_turn(axis: charts.DriverAxis) -> charts.Array:
     if axis.reach.full:
         along = np.concatenate([(axis.offsets[:-1] - axis.first) % high, (beside - axis.first) % high])
         along = np.unique(np.concatenate([along, [0.0, high * (1 - 1e-12)]]))
-        return np.asarray((along + axis.first) % high)
+        return (along + axis.first) % high
     return np.unique(np.concatenate([axis.offsets, beside[(beside > low) & (beside < high)]]))
 
 

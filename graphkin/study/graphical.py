@@ -96,7 +96,7 @@ class Chords:
 
     @property
     def middles(self) -> Array:
-        return np.asarray((self.x[1:] + self.x[:-1]) / 2)
+        return (self.x[1:] + self.x[:-1]) / 2
 
     @property
     def places(self) -> Array:
@@ -106,7 +106,7 @@ class Chords:
     @property
     def measured(self) -> Array:
         """The results, measured (SI)."""
-        return np.asarray(self.found * self.per_found)
+        return self.found * self.per_found
 
     @property
     def off(self) -> float:

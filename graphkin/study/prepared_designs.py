@@ -198,7 +198,7 @@ class PreparedMechanisms:
         if self.given.keys().isdisjoint({("value", 0), ("rate", 0)}):
             return self.ready.range.grid(n).values
         start, way = (np.broadcast_to(x, (self.count,)) for x in (self._start, self._way))
-        return np.asarray(start[:, None] + way[:, None] / n * np.arange(n))
+        return start[:, None] + way[:, None] / n * np.arange(n)
 
     def _turns(self, which: Array, n: int) -> tuple[Array, Array]:
         """Cosines and sines of the driver at n positions of each design, shape (designs, n)."""

@@ -37,9 +37,9 @@ def solve_all(matrix: Array, right: Array) -> Array:
     matrix, right : shape (n, k, k), and (n, k) or (n, k, columns)
     """
     if right.ndim == 2:
-        return np.asarray(solve_all(matrix, right[..., None])[..., 0])
+        return solve_all(matrix, right[..., None])[..., 0]
     try:
-        return np.asarray(np.linalg.solve(matrix, right))
+        return np.linalg.solve(matrix, right)
     except np.linalg.LinAlgError:
         with np.errstate(invalid="ignore"):
             regular = np.linalg.slogdet(matrix)[0] != 0.0
@@ -85,8 +85,8 @@ class Sums:
         """The sums, in the order of ``entries``; numbers of shape (n, numbers)."""
         sorted_ = numbers[:, self.order]
         if len(self.starts) == len(self.order):
-            return np.asarray(sorted_)
-        return np.asarray(np.add.reduceat(sorted_, self.starts, axis=1))
+            return sorted_
+        return np.add.reduceat(sorted_, self.starts, axis=1)
 
 
 class Layout:

@@ -324,14 +324,14 @@ def angle_of(direction: Any) -> Any:
 def fmin(x: Number, y: Number) -> Number:
     """The smaller of two numbers; if one is nan, the other."""
     if not isinstance(x, Real):
-        return np.asarray(np.fmin(x, y))
+        return np.fmin(x, y)
     return x.graph.line("fmin", x.at, y.at)
 
 
 def fmax(x: Number, y: Number) -> Number:
     """The greater of two numbers."""
     if not isinstance(x, Real):
-        return np.asarray(np.fmax(x, y))
+        return np.fmax(x, y)
     return x.graph.line("fmax", *sorted((x.at, y.at)))
 
 

@@ -323,7 +323,7 @@ class _Run:
             bound = most_of(state.bounds(self.structure, doubtful).values())
             poses = {name: pose.spread(self.n).rows(doubtful) for name, pose in state.poses.items()}
             doubtful[doubtful] = ~(roughness(self.structure, poses, bound) < ROUGH)
-        return np.asarray(doubtful)
+        return doubtful
 
     def _lift(self, i: int, cam: LawCam) -> None:
         """Find the place of a cam's follower, by the cam's own turning."""

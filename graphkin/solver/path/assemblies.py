@@ -300,4 +300,4 @@ def _distinct(structure: Structure, group: LargerGroup, solved: GroupSolved) -> 
     for k in sorted(range(len(rows)), key=lambda k: added_up(float(t[rows[k]]) for t in travels), reverse=True):
         if not any(points.size and np.abs(points[:, k] - points[:, other]).max() < SAME * size for other in kept):
             kept.append(k)
-    return np.asarray(place[rows[sorted(kept)]])
+    return place[rows[sorted(kept)]]

@@ -250,16 +250,16 @@ class DriverRange:
     def reaches(self, offset: Array) -> Array:
         """Whether the motion reaches these offsets, shape (n,)."""
         low, high = self.ends
-        return np.asarray((offset >= low) & (offset <= high))
+        return (offset >= low) & (offset <= high)
 
     def table_offsets(self, n: int, some: Array | None = None) -> Array:
         """Offsets of all positions of a table of n, or of some numbered from 0, in the sense of the driver: over a turn
         from the start on, or evenly inside the range of travel."""
         k = np.arange(n) if some is None else some
         if self.driver.turns:
-            return np.asarray(2 * np.pi * k / n)
+            return 2 * np.pi * k / n
         low, high = self.ends
-        return np.asarray(low + (k + 0.5) / n * (high - low))
+        return low + (k + 0.5) / n * (high - low)
 
     @cached_property
     def clear(self) -> Array:
@@ -412,7 +412,7 @@ class DriverRange:
         included; in (-pi, pi] at the start."""
         here = np.angle(motion.poses[link].u)
         since = self._start_angle[link] + motion.turned.get(link, 0.0)
-        return np.asarray(here + 2 * np.pi * np.rint((since - here) / (2 * np.pi)))
+        return here + 2 * np.pi * np.rint((since - here) / (2 * np.pi))
 
     @cached_property
     def _start_angle(self) -> dict[str, float]:
@@ -453,7 +453,7 @@ def each_once(seams: Array, low: float, high: float, full: bool) -> Array:
     else:
         seams = seams[(seams > low + near) & (seams < high - near)]
     seams = np.sort(seams)
-    return np.asarray(seams[np.diff(seams, prepend=-np.inf) > near])
+    return seams[np.diff(seams, prepend=-np.inf) > near]
 
 
 BLOCK = 16384

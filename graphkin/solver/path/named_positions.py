@@ -62,7 +62,7 @@ def _value(reach: DriverRange, place: float | StrokeStart | None) -> float:
 
     def before(part: Array) -> Array:
         travel = reach.motion((begin + part) % math.tau).slide(place.stroke)[0]
-        return np.asarray(place.sense * (travel - goal) < 0.0)
+        return place.sense * (travel - goal) < 0.0
 
     part = span * place.at if place.at in (0.0, 1.0) else last_true(before, 0.0, span)
     return float(reach.value(np.array((begin + part) % math.tau)))
