@@ -87,7 +87,10 @@ class Box(NamedTuple):  # a page has thousands
 
     def nearest(self, point: complex) -> complex:
         """The point of the box (its area counts) that is nearest to a point."""
-        return complex(min(max(point.real, self.left), self.right), min(max(point.imag, self.top), self.bottom))
+        return complex(
+            min(max(point.real, self.left), self.right),
+            min(max(point.imag, self.top), self.bottom),
+        )
 
     def distance(self, point: complex) -> float:
         """Distance (mm) from a point to the box, 0 inside."""
@@ -114,7 +117,10 @@ class Box(NamedTuple):  # a page has thousands
                 leave = share
         if enter > leave:
             return None
-        return start if enter == 0.0 else start + enter * step, end if leave == 1.0 else start + leave * step
+        return (
+            start if enter == 0.0 else start + enter * step,
+            end if leave == 1.0 else start + leave * step,
+        )
 
     def clip_line(self, through: complex, along: complex) -> tuple[complex, complex] | None:
         """The chord that the box cuts from an endless line, in the sense of ``along``; None where they do not meet."""

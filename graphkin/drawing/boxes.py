@@ -122,7 +122,9 @@ def rows(blocks: Sequence[Block], width: float, gap: float) -> list[Block]:
     return [row(*some, gap=gap) for some in _lots(blocks, width + 0.1, gap, lambda block: block.width)]
 
 
-def _lots(blocks: Iterable[Block], room: float, gap: float, size: Callable[[Block], float]) -> Iterator[list[Block]]:
+def _lots(
+    blocks: Iterable[Block], room: float, gap: float, size: Callable[[Block], float]
+) -> Iterator[list[Block]]:
     """Blocks in order in lots whose sizes (mm), with gaps between, a room holds; a larger block is a lot of its own."""
     lot: list[Block] = []
     used = 0.0

@@ -8,7 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Text, map_tree
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Text,
+    map_tree,
+)
 
 FADED = 0.42  # of its colour is left to what was drawn before
 

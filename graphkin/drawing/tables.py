@@ -103,7 +103,8 @@ def _column(
 
 
 def _texts(row: TableRow, units: Units, letters: Notation, language: str) -> list[Words]:
-    compared, reading, symbol = row.compared, row.compared.reading, row.compared.symbol
+    compared = row.compared
+    reading, symbol = compared.reading, compared.symbol
     unit = symbol.unit(units).written
     name = rate(symbol.kind, ",".join((symbol.link, *row.more))) if row.more else letters.vector(symbol)
     agrees = compared.uncertainty is None and compared.ok

@@ -41,7 +41,18 @@ from graphkin.drawing.boxes import (
 )  # fmt: skip
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Segment, Text, on_page, walk
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Primitive,
+    Segment,
+    Text,
+    on_page,
+    walk,
+)
 from graphkin.drawing.ink.strokes import colour_of_link, pale
 from graphkin.drawing.ink.symbols import POINTER, arrow
 from graphkin.drawing.parts.mechanism import bare_mechanism
@@ -297,7 +308,8 @@ def _pointer(inside: Box, solid: Sequence[Segment], centre: Centre) -> Segment:
     """The place of an arrow to a far centre: it points straight at the centre, clear of strokes, near the edge."""
     prices: list[float] = []
     arrows: list[Segment] = []
-    middle, far, along = inside.centre, centre.point, on_page(centre.direction or 0j)
+    middle, far = inside.centre, centre.point
+    along = on_page(centre.direction or 0j)
     for turned, straight in enumerate((along, -along) if far is None else (unit(on_page(far) - middle),)):
         for aside in ASIDES:
             start = middle + 1j * straight * aside
@@ -366,8 +378,12 @@ def background(piece: Piece, *also: str) -> Piece:
 def _side(page: FigurePage, centres: Centres) -> Block:
     """The column beside the mechanism: circle diagram, legend, and the centres in the order of construction, with their
     constructions."""
-    radius, letters, spoken = RADIUS.get(len(centres.names), 23.0), page.letters, page.language
-    found = [(c.number, letters.centre(c.pair), _how_found(c, letters, spoken)) for c in centres.found if c.number]
+    letters = page.letters
+    radius = RADIUS.get(len(centres.names), 23.0)
+    found = [
+        (c.number, letters.centre(c.pair), _how_found(c, letters, page.language))
+        for c in centres.found if c.number
+    ]  # fmt: skip
     wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for _, name, _ in found)])
     # long names of links need more room, in the circle diagram and in the list: of each line, and the × at its end
     longest = max(runs_width(plain(name, KNOT, bold=True)) for name in centres.names)
@@ -407,7 +423,9 @@ def _how_found(centre: Centre, letters: Notation, language: str) -> Words:
 def _report(page: FigurePage, centres: Centres, velocities: Sequence[Phrase]) -> Block:
     """The centres that Kennedy's theorem does not give, with the reason, and the velocities by centres: their formulas
     once, with the further languages in brief."""
-    lines, told, every = list[Words](), list[Words](), languages(page.language)
+    lines: list[Words] = []
+    told: list[Words] = []
+    every = languages(page.language)
     for each in every:
         for centre in centres.indeterminate:
             by = Phrase(f"centre {centre.way}", centre=centre.pair, kept=listed(centres.kept)) if centre.way else None
@@ -438,7 +456,8 @@ def _rich(phrase: Phrase, language: str, letters: Notation) -> RichText:
 
 def _description(page: FigurePage, centres: Centres, velocities: Sequence[Phrase]) -> str:
     """Every centre in words, for readers who do not see the figure."""
-    said, letters = [], page.letters
+    letters = page.letters
+    said = []
     for each in languages(page.language):
         for centre in centres.found:
             place = "?" if centre.direction is None else "∞"
@@ -508,7 +527,8 @@ def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
 def _centre_by_centre(page: FigurePage, centres: Centres, some: Sequence[Centre]) -> Iterator[Drawing]:
     """Pages with a small picture of each of some centres: the mechanism, the two lines through known centres, and their
     crossing."""
-    small, letters = centres.at(centres.sheet.scales_for(SMALL)), page.letters
+    letters = page.letters
+    small = centres.at(centres.sheet.scales_for(SMALL))
     behind = Piece(background(bare_mechanism(small.sheet, letters), "touch").layers)
     page = replace(page, sheet=small.sheet, width=WIDTH)
     for i in range(0, len(some), COLUMNS * ROWS):

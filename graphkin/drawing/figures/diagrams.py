@@ -12,7 +12,14 @@ from dataclasses import replace
 from functools import partial
 
 from graphkin.account.given import drivers
-from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, figure_title, remarks, term
+from graphkin.account.headings import (
+    FIGURE_WORDS,
+    describe,
+    dimensions_in,
+    figure_title,
+    remarks,
+    term,
+)
 from graphkin.account.voice import Account
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
@@ -23,7 +30,12 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, line, panel, prose, row
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink.primitives import Text, page_direction
-from graphkin.drawing.parts.insets import mechanism_with_inset, polygon_with_insets, scan_piece, strip_height
+from graphkin.drawing.parts.insets import (
+    mechanism_with_inset,
+    polygon_with_insets,
+    scan_piece,
+    strip_height,
+)
 from graphkin.drawing.parts.mechanism import bare_mechanism, mechanism_piece
 from graphkin.drawing.parts.polygon import PolygonOnPage, extent, polygon_piece
 from graphkin.drawing.place.labels import Label
@@ -156,8 +168,10 @@ def _page(
     page: FigurePage, some: Sequence[tuple[str, Sheet]], shown: Sequence[DiagramName], size: tuple[float, float]
 ) -> Drawing:
     page = replace(page, sheet=some[0][1])
-    names, positions = [name for name, _ in some], (_position(page, *one, shown, size) for one in some)
-    scales = (page.term(FIGURE_WORDS[diagram]) + page.punctuation("colon") + page.scale(diagram) for diagram in shown)
+    names = [name for name, _ in some]
+    positions = (_position(page, name, sheet, shown, size) for name, sheet in some)
+    colon = page.punctuation("colon")
+    scales = (page.term(FIGURE_WORDS[diagram]) + colon + page.scale(diagram) for diagram in shown)
     return page.drawing(
         spaced(";  ", scales), row(*positions, gap=GUTTER), "", title="polygons",
         said=page.punctuation("symbol comma").join(names), metadata={"positions": names},

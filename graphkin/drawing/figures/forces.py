@@ -14,7 +14,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.account.forces import SHORT as SEEN
-from graphkin.account.forces import ForceStage, force_stages, lever_scale, lever_sum, read_off, spots_of, told_of
+from graphkin.account.forces import (
+    ForceStage,
+    force_stages,
+    lever_scale,
+    lever_sum,
+    read_off,
+    spots_of,
+    told_of,
+)
 from graphkin.account.given import given_loads
 from graphkin.account.headings import figure_title
 from graphkin.account.notation import Notation, as_vector, force_letters, pole
@@ -141,7 +149,9 @@ def group_picture(page: FigurePage, stage: ForceStage, tag: str) -> Drawing:
                    str(page.said("force described")[0]), languages(page.language)[0])  # fmt: skip
 
 
-def _pictures(page: FigurePage, stage: ForceStage, names: Counter[str], tag: str = "") -> Iterator[Block]:
+def _pictures(
+    page: FigurePage, stage: ForceStage, names: Counter[str], tag: str = ""
+) -> Iterator[Block]:
     """The sketch of a group beside its polygon, or above its polygons."""
     suffix = ("-with" if stage.again else "") + tag
     polygons = _polygons(stage.group)
@@ -419,7 +429,8 @@ def _drawn_polygon(
         tail, tip = vector.tail + shift, vector.tip + shift
         step = group.in_polygon(vector, links)
         if shift:
-            aside = (Line.between(*ends, strokes.CONSTRUCTION) for ends in ((vector.tail, tail), (vector.tip, tip)))
+            aside = (Line.between(true, shown, strokes.CONSTRUCTION)
+                     for true, shown in ((vector.tail, tail), (vector.tip, tip)))  # fmt: skip
             plate.put("construction", *aside, step=step)
         arrow(vector, tail, tip, step, 0 if not vector.known or abs(vector.span) > 3.0 else 2)
     for whole in _wholes(vectors):
@@ -434,9 +445,11 @@ def _drawn_polygon(
         plate.circle("construction", vector.tip, 0.4, strokes.BLACK)
     for vector in (v for v in unknown if v.part != "t" and abs(v.span) > SHORT):
         # the line along which it was drawn, a little past its ends
-        past, step = 6.0 * unit(vector.span), group.in_polygon(vector, links)
-        for ends in ((vector.tail, vector.tail - past), (vector.tip, vector.tip + past)):
-            plate.put("construction", Line.between(*ends, strokes.DIRECTION), classes=("direction",), step=step)
+        past = 6.0 * unit(vector.span)
+        step = group.in_polygon(vector, links)
+        for end, beyond in ((vector.tail, vector.tail - past), (vector.tip, vector.tip + past)):
+            line = Line.between(end, beyond, strokes.DIRECTION)
+            plate.put("construction", line, classes=("direction",), step=step)
     return with_labels(moved_piece(plate.piece, panel.centre - _box(vectors).centre), panel)
 
 

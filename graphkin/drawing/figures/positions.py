@@ -7,7 +7,6 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice
 from typing import TypeAlias
 
 from graphkin.account.headings import number
@@ -111,7 +110,8 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
         return execute(plan(structure, {**own.drivers, key: value}, ())).at(own.scales)
 
     numbered = {name: drawn(value) for name, value in values.items() if name in (*show, *every)}
-    output, limits = "", tuple[Sheet, ...]()
+    output = ""
+    limits: tuple[Sheet, ...] = ()
     without: dict[Symbol, Wording] = {}
     measured: dict[str, float] = {}
     for output in _outputs(scene, structure) if "limits" in show else ():
@@ -357,8 +357,10 @@ def _crank(shown: Shown) -> Iterator[_Wanted]:
 
 def _travel(shown: Shown) -> Iterator[_Wanted]:
     """The stroke of a slide or the swing of a link, dimensioned between the limit positions."""
-    output, units = shown.output, shown.own.scene.units
-    stroke, swing = (shown.measured.get(kind) for kind in ("stroke", "swing"))
+    output = shown.output
+    units = shown.own.scene.units
+    stroke = shown.measured.get("stroke")
+    swing = shown.measured.get("swing")
     if "stroke" not in shown.marks or not shown.limits:
         return
     if stroke is not None:
@@ -367,11 +369,13 @@ def _travel(shown: Shown) -> Iterator[_Wanted]:
         if abs(b - a) > 1.0:
             yield f"stroke-{output.replace('/', '-')}", False, [dimension(a, b, offset, words) for offset in OFFSETS]
     elif swing is not None:
-        low, words = shown.limits[0], rich(sign("ψ") + f" = {number(math.degrees(swing), 5)}°", 2.8)
-        begin = cmath.phase(low.poses[output].axis)
-        pivots = (low.points[PointRef(p)] for p in low.structure.links[output].points if p in low.scene.frame.points)
-        for pivot in islice(pivots, 1):
-            yield f"swing-{output}", True, _arcs(pivot, SWING_RADII, begin, begin + swing, words)
+        low = shown.limits[0]
+        points = low.structure.links[output].points
+        pivot = next((p for p in points if p in low.scene.frame.points), None)
+        if pivot is not None:
+            begin = cmath.phase(low.poses[output].axis)
+            words = rich(sign("ψ") + f" = {number(math.degrees(swing), 5)}°", 2.8)
+            yield f"swing-{output}", True, _arcs(low.points[PointRef(pivot)], SWING_RADII, begin, begin + swing, words)
 
 
 def _gamma(shown: Shown) -> Piece:

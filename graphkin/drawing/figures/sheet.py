@@ -13,7 +13,15 @@ from typing import Literal, TypeAlias
 
 from graphkin.account.account import written_lines
 from graphkin.account.given import drivers
-from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, facts, figure_title, term, titles
+from graphkin.account.headings import (
+    FIGURE_WORDS,
+    describe,
+    dimensions_in,
+    facts,
+    figure_title,
+    term,
+    titles,
+)
 from graphkin.checking.report import Compared, Report
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName
@@ -23,7 +31,13 @@ from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_ro
 from graphkin.drawing.figures import Figure, figure_kinds
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, moved, walk
-from graphkin.drawing.parts.insets import INSET, CoriolisTerm, coriolis_rows, mechanism_with_inset, polygon_with_insets
+from graphkin.drawing.parts.insets import (
+    INSET,
+    CoriolisTerm,
+    coriolis_rows,
+    mechanism_with_inset,
+    polygon_with_insets,
+)
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.place.dimensions import check_bar

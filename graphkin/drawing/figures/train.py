@@ -48,11 +48,13 @@ def train_figure(page: FigurePage) -> Drawing | None:
 
 def train_pages(page: FigurePage) -> dict[int, Drawing]:
     """The pages of the plans with motion, by the numbers of these."""
-    pages, reasons = dict[int, Drawing](), ("plan", "given on plan")
+    pages: dict[int, Drawing] = {}
+    reasons = ("plan", "given on plan")
     for count, plan in enumerate(page.sheet.trains, 1):
         if any((*plan.velocities.values(), *(line.value for line in plan.lines.values()))):
             lines = (key for key in plan.lines if key[1] in page.sheet.scene.by_name)
-            steps = (step.number for step in page.sheet.steps if step.plan == count and step.reason in reasons)
+            drawn = (step for step in page.sheet.steps if step.plan == count)
+            steps = (step.number for step in drawn if step.reason in reasons)
             pages[count] = _page(page, plan, dict(zip(lines, steps, strict=True)))
     return pages
 

@@ -247,7 +247,9 @@ def walk(children: Iterable[Primitive]) -> list[Primitive]:
     return found
 
 
-def map_tree(children: Iterable[Primitive], change: Callable[[Primitive], Primitive | None]) -> tuple[Primitive, ...]:
+def map_tree(
+    children: Iterable[Primitive], change: Callable[[Primitive], Primitive | None]
+) -> tuple[Primitive, ...]:
     """The primitives, each changed, or left out where ``change`` gives None; groups after their children."""
     found: list[Primitive] = []
     for thing in children:

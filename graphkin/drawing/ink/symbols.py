@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, on_page, page_direction
-from graphkin.plane import cross
+from graphkin.plane import cross, unit
 
 # A vector shorter than this (mm) has no length a ruler could tell from none; it is drawn as a dot.
 ZERO = 0.02
@@ -125,7 +125,9 @@ def guide(at: complex, angle: float, length: float, width: float = BLOCK_WIDTH) 
     along = page_direction(angle)
     side = along * 1j * width / 2
     half = along * length / 2
-    return *hatched_line(at + half - side, at - half - side), *hatched_line(at - half + side, at + half + side)
+    left = hatched_line(at + half - side, at - half - side)
+    right = hatched_line(at - half + side, at + half + side)
+    return *left, *right
 
 
 def block(
@@ -169,7 +171,8 @@ WELD = 3.2  # mm of the bars
 
 def weld(at: complex, first: complex, second: complex, colour: str) -> Polygon:
     """Filled corner between two bars of one link that meet at a point, towards a point on each: they turn together."""
-    return Polygon((at, *(at + WELD * ((end - at) / abs(end - at)) for end in (first, second))), colour)
+    ends = (at + WELD * unit(end - at) for end in (first, second))
+    return Polygon((at, *ends), colour)
 
 
 def sense_arc(
@@ -207,13 +210,15 @@ def cylinder(pivot: complex, rod_end: complex, colour: str) -> tuple[Shape, ...]
     along = (rod_end - pivot) / length
     near, far = pivot + min(4.0, 0.15 * length) * along, pivot + BARREL * length * along
     side = along * 1j * BORE / 2
-    stroke, bar = strokes.OUTLINE.coloured(colour), strokes.LINK.coloured(colour)
+    stroke = strokes.OUTLINE.coloured(colour)
+    bar = strokes.LINK.coloured(colour)
     piston = near + 0.55 * (far - near)
     return (
         Line(pivot, near, bar),
-        Polygon((near + side, far + side, far - side, near - side), strokes.WHITE, stroke), Line(piston, rod_end, bar),
+        Polygon((near + side, far + side, far - side, near - side), strokes.WHITE, stroke),
+        Line(piston, rod_end, bar),
         Polygon(_rectangle(piston, cmath.phase(on_page(along)), 1.6, 0.88 * BORE), colour),
-    )  # fmt: skip
+    )
 
 
 def spring(start: complex, end: complex) -> tuple[Shape, ...]:

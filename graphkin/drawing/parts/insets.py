@@ -24,12 +24,27 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName, Size, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Scan, Text, map_tree, on_page
+from graphkin.drawing.ink.primitives import (
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Primitive,
+    Scan,
+    Text,
+    map_tree,
+    on_page,
+)
 from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow, sense_arc
 from graphkin.drawing.parts import polygon
 from graphkin.drawing.parts.mechanism import bare_mechanism
-from graphkin.drawing.parts.polygon import Detail, PolygonOnPage, polygon_lines, polygon_piece
+from graphkin.drawing.parts.polygon import (
+    Detail,
+    PolygonOnPage,
+    polygon_lines,
+    polygon_piece,
+)
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, with_labels, without
 from graphkin.drawing.place.numbers import step_numbers
@@ -227,7 +242,8 @@ def mechanism_with_inset(
     panel : room of it all (mm)
     """
     named = with_labels(moved_piece(piece, origin), panel)
-    scan, mm = sheet.scene.question.background, 1 / sheet.scales.length
+    scan = sheet.scene.question.background
+    mm = 1 / sheet.scales.length
     under = Piece({"background": (_laid(scan, mm, origin, panel),)} if scan is not None else {})
     return joined((under, named, _mechanism_detail(sheet, letters, language, panel, named.drawn)))
 
@@ -311,9 +327,14 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box
     colour = colour_of_vector(sheet, vector.symbol)
     tips = [centre + REACH * on_page(way) for way in (slip, turned)]
     arc = sense_arc(centre, 3.6, phase(slip) + sense * math.pi / 4, sense, math.radians(72))
-    arrows = *arrow(centre, tips[0], COMPONENT, strokes.BLACK), *arrow(centre, tips[1], COMPONENT, colour)
-    parts = *arrows, *arc, Circle(centre, 0.4, fill=strokes.BLACK)
-    id, middle = vector.symbol.id, centre + 3.6 * on_page(unit(slip + turned))
+    parts = (
+        *arrow(centre, tips[0], COMPONENT, strokes.BLACK),
+        *arrow(centre, tips[1], COMPONENT, colour),
+        *arc,
+        Circle(centre, 0.4, fill=strokes.BLACK),
+    )
+    id = vector.symbol.id
+    middle = centre + 3.6 * on_page(unit(slip + turned))
     links = "".join(rule.links) if rule and rule.rule == "rate" and rule.rate == "omega" else ""
     told = [("v-", letters.arrow(velocity.symbol), tips[0], slip, 0)]
     told.append(("", letters.arrow(vector.symbol), tips[1], turned, 0))

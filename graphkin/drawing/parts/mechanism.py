@@ -202,7 +202,8 @@ def _through(here: MechanismOnPaper, z: complex, held: list[str]) -> list[Primit
         for a, b in shape.bars:
             e = unit(b - a)
             if abs(cross(z - a, e)) < 1e-3 and 2.0 < dot(z - a, e) < abs(b - a) - 2.0:
-                r, stroke = symbols.JOINT_RADIUS, strokes.LINK.coloured(here.colour(shape.link))
+                r = symbols.JOINT_RADIUS
+                stroke = strokes.LINK.coloured(here.colour(shape.link))
                 parts.append(Line.between(z - r * e, z + r * e, stroke))
     return parts
 

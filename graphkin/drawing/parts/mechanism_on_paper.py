@@ -153,7 +153,8 @@ class MechanismOnPaper:
     @cached_property
     def _faces(self) -> tuple[Slider, ...]:
         """The flat faces of moving links as sliders: a contact with the direction of the face."""
-        pairs, places = self.scene.replaced_by, self.places
+        pairs = self.scene.replaced_by
+        places = self.places
         slides = (s for s in self.sheet.structure.slides if s.key in pairs and pairs[s.key].name in places)
         return tuple(Slider(slide, places[pairs[slide.key].name], slide.along(self.sheet.poses), False)
                      for slide in slides if slide.b in self.sheet.poses)  # fmt: skip

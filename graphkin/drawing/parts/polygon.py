@@ -22,7 +22,15 @@ from graphkin.account.spoken import spoken_ref, spoken_vector
 from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
 from graphkin.construction.board.scales import SERIES
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Bar, DiagramName, Image, Mark, Ray, Step, Vector
+from graphkin.construction.board.steps import (
+    Bar,
+    DiagramName,
+    Image,
+    Mark,
+    Ray,
+    Step,
+    Vector,
+)
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Stroke, Text, on_page
@@ -484,7 +492,8 @@ MANY = 16  # in a polygon of more vectors names have no room for that
 def _name(here: PolygonOnPage, group: Sequence[Vector], letters: Mapping[complex, RichText]) -> Label | None:
     """The name of vectors with one tail and tip in the order of their steps; None for short resultants, which share the
     letter of their end.  ``letters`` are those of the points."""
-    length, us = abs(group[0].span), here.letters.convention == "us"
+    us = here.letters.convention == "us"
+    length = abs(group[0].span)
     short = length < LEAST_DRAWN
     vectors = sorted((v for v in group if not short or v.role != "resultant" or us or abs(v.tip) < SAME),
                      key=lambda v: here.vectors[v.symbol][0])  # fmt: skip
@@ -499,7 +508,9 @@ def _name(here: PolygonOnPage, group: Sequence[Vector], letters: Mapping[complex
         size = f"{number(length * here.sheet.scales.of(here.diagram) / unit.si, 4)} {unit.written}"
         value = rich(name + (sign(" = 0") if length == 0.0 else f" = {size}"), LETTER)
         return Label.of(value, here.at(first.tip), id, rank=3, since=step, key=step_number(step))
-    resultants, colour, runs = all(v.role == "resultant" for v in vectors), here.colours[first.symbol], rich(name)
+    resultants = all(v.role == "resultant" for v in vectors)
+    colour = here.colours[first.symbol]
+    runs = rich(name)
     key = step_number(step, colour)
     numbered = LEAST_NUMBERED <= length < SHORT and len(here.vectors) <= MANY
     ends = [letters.get(same_place(end), RichText()) for end in (first.tail, first.tip)]

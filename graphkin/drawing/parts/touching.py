@@ -81,7 +81,8 @@ def _wheels(here: MechanismOnPaper, link: str) -> list[Primitive]:
                 parts += _ring(centre, abs(radius), radius < 0, colour)
     for rack, foot, body in links.pitch_lines():
         if rack == link:
-            reach, edge = 2.2 * FACE * 1j * body, 2.0 * body
+            reach = 2.2 * FACE * 1j * body
+            edge = 2.0 * body
             parts.append(Line.between(foot - reach, foot + reach, strokes.PITCH.coloured(colour)))
             ends = foot - reach + edge, foot + reach + edge
             edge_of_body = Line.between(*ends, strokes.LINK.coloured(colour))

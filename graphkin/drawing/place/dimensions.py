@@ -62,7 +62,8 @@ def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]
         return *parts, *lines, _head(a, a - b), _head(b, b - a), text
     outside = 0.0 if length >= 3 * head else 2 * head  # of the ends, where arrowheads stand on a short one
     out = -along if outside else along
-    parts += [Line(a - outside * along, b + outside * along, strokes.DIMENSION), _head(a, -out), _head(b, out)]
+    parts.append(Line(a - outside * along, b + outside * along, strokes.DIMENSION))
+    parts += [_head(a, -out), _head(b, out)]
     return *parts, _centred(runs, b + (2 * CLEAR + outside + _reach(runs, along)) * along)
 
 

@@ -123,7 +123,9 @@ def _list(entries: Sequence[Text], panel: Box, around: Obstacles) -> tuple[Text,
     return ()
 
 
-def _in_columns(entries: Sequence[Text], lines: int, panel: Box, around: Obstacles, clear: float) -> tuple[Text, ...]:
+def _in_columns(
+    entries: Sequence[Text], lines: int, panel: Box, around: Obstacles, clear: float
+) -> tuple[Text, ...]:
     """Entries in columns of at most ``lines`` lines in one free place; empty without such a place."""
     boxes = [text_box(entry) for entry in entries]
     columns = [range(k, min(k + lines, len(entries))) for k in range(0, len(entries), lines)]

@@ -76,7 +76,8 @@ class Placement:
         self.telling = False  # whether a list may tell labels by their ends
         self.outlines = np.empty((20, 2, 0))
         self._list_places()
-        self._stand(sorted(range(len(labels)), key=lambda i: (labels[i].rank >= DISPENSABLE, len(self.numbers[i]), i)))
+        order = ((label.rank >= DISPENSABLE, len(self.numbers[i]), i) for i, label in enumerate(labels))
+        self._stand([i for _, _, i in sorted(order)])
         self._settle(range(len(labels)))
         for i, label in enumerate(labels):
             if label.rank == 0 and self.stands[i] == NOWHERE:
@@ -103,7 +104,8 @@ class Placement:
         return tuple(self._placed(i, k) for i, k in enumerate(self.stands) if k not in (NOWHERE, TOLD))
 
     def _placed(self, i: int, k: int) -> Placed:
-        middle, half, foot, tip = (complex(*corner) for corner in self.panel.places.forms[:, :, k].tolist())
+        form = self.panel.places.forms[:, :, k].tolist()
+        middle, half, foot, tip = (complex(*corner) for corner in form)
         request = int(self.panel.places.owners[k])
         text, own = self.panel.texts[request], self.panel.boxes[request]
         low, high = middle - half, middle + half
@@ -250,7 +252,9 @@ class Placement:
         others = iter(met.T[some].nonzero()[1].tolist())
         return places[some], [[*islice(others, count)] for count in crowd[some].tolist()]
 
-    def _room(self, i: int, some: Sequence[int], offers: Indices, least: float) -> tuple[Indices, dict[int, slice]]:
+    def _room(
+        self, i: int, some: Sequence[int], offers: Indices, least: float
+    ) -> tuple[Indices, dict[int, slice]]:
         """Places of some labels that only labels to be moved obstruct, the cheapest first; and those of each label.
 
         Places too costly for the labels' savings are left out, if all are to cost less than ``least``.

@@ -19,7 +19,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Page,
+    Polygon,
+    Polyline,
+    Primitive,
+    Stroke,
+    Text,
+)
 from graphkin.drawing.text import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
