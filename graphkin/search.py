@@ -345,8 +345,7 @@ class Pieces:
     def _turns_at_seams(
         self, curve: int, at_rest: bool, places: Array, values: Array
     ) -> tuple[list[Turn], NDArray[np.bool_]]:
-        """The turns of a curve at seams, and which of the places at which its derivative is zero, with its values
-        there, are those of a seam."""
+        """The turns of a curve at seams, and which places of no slope, with their values, are those of a seam."""
         low, high, slack = float(self.low[0]), float(self.high[-1]), SAME_AT_SEAM * self.scale[curve]
         wide = high - low
         turns, levels = list[Turn](), self.levels(curve)

@@ -243,8 +243,8 @@ def read_pyslvs(text: str, title: str) -> Bodies:
         _join(made, known, f"P{len(made.places)}", kind, place, names, turn)
     made.bodies.setdefault(FRAME, [])
     points = list(made.places)
-    around = (re.findall(r"base\W+(\d+)\D+?drive\W+(\d+)", part) for part in (plain[end:], plain[: begin.start()]))
-    pairs = next(filter(None, around), [])
+    driven = re.compile(r"base\W+(\d+)\D+?drive\W+(\d+)")
+    pairs = driven.findall(plain, end) or driven.findall(plain, 0, begin.start())
     if not pairs and len(re.findall(r"\bM\s*\[", plain)) == 1:
         pairs = _first_crank(made)
     for base, drive in pairs:

@@ -61,7 +61,8 @@ def read_linkage2(text: str, title: str) -> Bodies:
         name = made.body(label, keys)
         for key in keys:
             names.setdefault(key, []).append(name)
-    made.lost += [Phrase("lost ratio", kind=ratio.get("type", "gears")) for ratio in root.iterfind("ratios/*")]
+    ratios = root.iterfind("ratios/*")
+    made.lost += [Phrase("lost ratio", kind=ratio.get("type", "gears")) for ratio in ratios]
     tags = ("fasten", "fastenlink", "fastenconnector")
     fastened = (node for node in (*nodes.values(), *elements)
                 if any(map(node.get, tags)) or node.find("fastenconnector") is not None)  # fmt: skip

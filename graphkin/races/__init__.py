@@ -219,7 +219,8 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
         ))  # fmt: skip
     phrases.append(Phrase("speed lesson compute", times=times(closed, drawn), error=f"{closed.error:.1g}"))
     steps = [e for e in race.entries if e.key == "differences"]
-    newton = min((e for e in race.entries if e.key == "Newton"), key=lambda e: float(f"{e.error:.1g}"), default=None)
+    by_newton = [e for e in race.entries if e.key == "Newton"]
+    newton = min(by_newton, key=lambda e: float(f"{e.error:.1g}"), default=None)
     if steps and newton is not None:
         single = race.of("closed single")
         best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)

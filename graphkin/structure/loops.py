@@ -102,8 +102,8 @@ Turning = Mapping[str, tuple[str, float, float]]
 
 
 def _turning(structure: Structure) -> Turning:
-    """For each link the link whose angle it shares: links that slide on each other, or are held by a driver, turn
-    alike; a block has its guide's angle, a link that never turns or is given the frame's."""
+    """For each link the link whose angle it shares, by slides and drivers: a block has its guide's angle, a link that
+    never turns or is given the frame's."""
     joins = [(s.b, s.a, (0.0, 0.0)) for s in structure.slides]
     joins += [(d.relative_to, d.link, (d.rate, d.second)) for d in structure.scene.drivers if d.turns]
     order, frame, blocks = structure.scene.order, structure.scene.frame.name, {s.a for s in structure.slides}
@@ -191,8 +191,9 @@ def _cycles(structure: Structure, element: Element, known: Sequence[Pair]) -> li
     """Independent cycles: a tree from the known links over the group; each pair outside the tree closes a cycle, from
     where the ways to its links part."""
     pairs = element.all_pairs
-    from_known: dict[str, list[Passage]] = {n: [] for pair in pairs for n in pair.links if n not in element.members}
-    path = carried(from_known, [(*pair.links, pair) for pair in pairs],
+    known_links = [n for pair in pairs for n in pair.links if n not in element.members]
+    starts: dict[str, list[Passage]] = {name: [] for name in known_links}
+    path = carried(starts, [(*pair.links, pair) for pair in pairs],
                    lambda path, pair, on: [*path, _through(pair, pair.links[not on])])  # fmt: skip
     tree = [passages[-1][1] for passages in path.values() if passages]
     cycles = []
@@ -223,8 +224,7 @@ def _over_known(structure: Structure, start: str, end: str, known: Sequence[Pair
 
 
 def _oriented(structure: Structure, cycle: list[Passage]) -> Sequence[Passage]:
-    """A cycle whose first edge leads to a driven link if it has one, else to the frame; it passes the crank from the
-    frame outwards."""
+    """A cycle from the frame outwards, its first edge to a driven link, if it has one."""
     driven, frame = {e.link for e in structure.driven}, structure.scene.frame.name
     links = [link for _, _, link in cycle]
     first = next((k for k, link in enumerate(links) if link in driven), links.index(frame) if frame in links else 0)

@@ -227,8 +227,8 @@ def start_drivers(structure: Structure, groups: Sequence[LargerGroup]) -> Iterat
 
 
 def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> list[tuple[int, Driver]]:
-    """The drivers that may give a coordinate of a relation, with their ranks: the start of the rolling link, of another
-    link of the group, a sketched bar, or no data."""
+    """The drivers that may give a coordinate of a relation, ranked: by the start of the rolling link, of another link
+    of the group, a sketched bar, no data."""
     scene, inside = structure.scene, set(group.members)
     ranked: list[tuple[int, Driver]] = []
     others = [("angle", n) for n in group.links if ("angle", n) not in relation.terms and n in scene.starts]
@@ -247,8 +247,8 @@ def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> 
 
 
 def _turned(structure: Structure, name: str, angle: float) -> Driver:
-    """A driver that puts a link's own axis at an angle (rad): from a link pinned to it that never turns, because it
-    slides on the frame, or on such a link, if there is one."""
+    """A driver that puts a link's own axis at an angle (rad): from a link pinned to it that never turns, if there is
+    one."""
     frame, still = structure.scene.frame.name, _still(structure.scene, structure.slides)
     pinned = [n for names in structure.hinges.values() if name in names for n in names if n in still]
     base = frame if frame in pinned or not pinned else pinned[0]

@@ -80,8 +80,8 @@ def with_forces(sheet: Sheet, hand: Instrument = EXACT, scales: ForceScales | No
 
 
 def _numbered(sheet: Sheet) -> Sheet:
-    """The steps of the forces in their order, after those of the motion: loads from outside, then the groups, those of
-    a second state where it differs from the first, then the levers."""
+    """The steps of the forces numbered after those of the motion: loads from outside, the groups, those of a second
+    state where it differs, the levers."""
     numbers, bare = count(sheet.steps[-1].number + 1 if sheet.steps else 1), sheet.forces[0].groups
 
     def numbered(step: Numbered) -> Numbered:

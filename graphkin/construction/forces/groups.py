@@ -457,8 +457,8 @@ def _by_inner_pin(
 def _inner_force(
     cut: CutFree, dyad: Dyad, outer: ForceVector
 ) -> tuple[ForceVector, list[ForceVector]]:
-    """The force inside on the first body, on which the ``outer`` force acts, closes the polygon of that; of a sliding
-    pair its couple the moments there, too."""
+    """The force inside closes the polygon of the first body, on which the ``outer`` force acts; the couple of a sliding
+    pair closes the moments."""
     pair, links = dyad.inner, dyad.first.links
     chain = [vector for vector in cut.group.polygon if vector.link in links]
     force = _gap(chain, _end_of(chain), chain[0].tail) * cut.per_mm
@@ -524,8 +524,8 @@ def _close_driven(
 def _at_driven_joint(
     cut: CutFree, joint: DrivenJoint, extra: Sequence[ForceVector], inside: Collection[str]
 ) -> list[ForceVector]:
-    """The force and the moment of a driven pair on the link that hangs on it, with the ``extra`` forces and couples on
-    that besides what is known from outside; returns what acts on the other link."""
+    """The force and the moment of a driven pair on the link that hangs on it, under ``extra`` loads besides the known;
+    returns what acts on the other link."""
     leaf, other, pair = joint.b, joint.a, joint.pair
     balance = cut.drawn.balance(joint.driver)
     chain: Chain = []
