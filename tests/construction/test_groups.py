@@ -15,6 +15,7 @@ from graphkin.checking.readings import read_off
 from graphkin.construction import OwnValues, Room, draft, execute, plan
 from graphkin.construction.board.instruments import pencil
 from graphkin.construction.board.steps import Curve, RateTrial, Superposed, TrialPositions
+from graphkin.construction.polygons import elements
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of
@@ -310,6 +311,17 @@ TOUCHED: dict[str, Any] = {  # the same with discs on what is left out
     },
     "contacts": {"T": {"between": ["6.k", "5.s"]}, "U": {"between": ["7.k", "1.s"]}},
 }  # fmt: skip
+
+
+def test_a_group_is_drawn_by_the_assumed_speed_of_a_sliding_pair(monkeypatch: pytest.MonkeyPatch) -> None:
+    plans = elements._plans
+    monkeypatch.setattr(elements, "_plans", lambda *args, **more: (
+        plan for plan in plans(*args, **more) if all(kind == "travel" for kind, _ in plan.tried)
+    ))  # fmt: skip
+    result = graphkin.check(STEEP)
+    assumed = [symbol.kind for s in result.sheet.steps if isinstance(s, RateTrial) for symbol, _ in s.assumed]
+    assert ["v", "v", "ar", "ar"] == assumed
+    assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
 
 
 @pytest.mark.parametrize("scene", [SLIDING, STEEP, BARE, UNBARRED, WELDED, SLOTTED, TOUCHED])
