@@ -233,6 +233,18 @@ def test_nothing_follows_from_ones_own_values_where_all_are_copied_from_another_
     assert [("wrong", "the answer of variant 1")] * 2 == [(v["verdict"], v["looks_like"]) for v in values]
 
 
+@pytest.mark.parametrize(
+    ("answers", "lead"),
+    [("at,omega_3\n60,1\n0,2\n", ["at"]), ("name,id,omega_3\nann,7,1\n", ["person", "id"])],
+)
+def test_the_table_names_of_each_value_what_the_answers_tell_of_it(tmp_path, answers, lead):
+    (tmp_path / "class.csv").write_text(answers)
+    audited = graphkin.audit("fourbar-150-500-300-400", answers=tmp_path / "class.csv")
+    first = [line.split(",")[: len(lead)] for line in answers.splitlines()[1:]]
+    assert [*lead, "quantity"] == audited.heads[: len(lead) + 1]
+    assert first == [row[: len(lead)] for row in audited.rows]
+
+
 def test_answers_of_variants_need_their_set(tmp_path):
     with pytest.raises(CallError, match="--variants"):
         table(tmp_path, "name,variant,v_D\nA,01,482.7\n")

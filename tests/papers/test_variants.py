@@ -372,6 +372,13 @@ def test_of_discs_and_geared_bars_what_they_move_is_asked_not_what_is_given():
     assert {"disc-on-disc": ["v_B", "a_B", "omega_2", "alpha_2"], "geared-five-bar": ["v_C", "a_C"]} == asked
 
 
+def test_a_row_whose_answer_a_pencil_can_miss_says_so_and_only_that_row(tmp_path):
+    (tmp_path / "rows.csv").write_text("name,driver.angle\na,60\nb,25\n")
+    made = problem_set(FOUR_BAR, rows=tmp_path / "rows.csv", find=["omega_3"])
+    said = {variant.name: [*map(str, variant.remarks)] for variant in made.variants}
+    assert {"a": [], "b": ["omega_3 cannot be drawn more closely than to 5 %"]} == said
+
+
 @pytest.mark.parametrize(("fewest", "asked"), [(2, ["v_E", "omega_5"]), (1, ["omega_5"])])
 def test_one_quantity_that_a_pencil_finds_is_asked_where_two_are_not_to_be_had(fewest, asked):
     values = [(Symbol.parse("v_E"), 0.1), (Symbol.parse("omega_5"), -0.7)]
