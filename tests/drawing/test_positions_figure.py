@@ -190,3 +190,10 @@ def test_no_angle_theta_is_drawn_of_a_crank_that_is_driven_from_another_moving_l
     answers = next(group for group in drawn.figures["positions"].children if group.id == "answers")
     texts = [thing.string for thing in walk(answers.children) if isinstance(thing, Text)]
     assert (["ψ= 57.728°"], True) == (texts, "θ= 12.78882°" in words_of(drawn))
+
+
+def test_a_swing_that_is_no_mark_has_no_dimension(figure: ET.Element) -> None:
+    scene = FOUR_BAR | {"positions": {"count": 4, "first": 0, "marks": ["K"]}}
+    without = ET.fromstring(svg_bytes(graphkin.draw(scene, figures=["positions"]).figures["positions"]))
+    texts = (["".join(e.itertext()) for e in root.iter() if e.tag.endswith("}text")] for root in (figure, without))
+    assert [2, 1] == [sum("ψ" in text for text in some) for some in texts]  # in words it is told all the same
