@@ -79,7 +79,8 @@ def language_of(message: object) -> str:
 
 def _problems(shelf: Shelf, error: GraphkinError, message: object) -> Answer:
     given = message if isinstance(message, Mapping) else {}
-    text, language = (value if isinstance(value := given.get(key), str) else "" for key in ("text", "language"))
+    text = given.get("text")
+    text = text if isinstance(text, str) else ""
     lines = isinstance(error, SceneError) or text != ""
     problems: list[dict[str, Json]] = [
         {"text": problem.text(language_of(message)), "line": line_of(problem, text) if lines else 0}
@@ -92,6 +93,7 @@ def _problems(shelf: Shelf, error: GraphkinError, message: object) -> Answer:
         trial = building.trial_driver(made)
         made = pictures.with_own_files(parsed(text), shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
+        language = given.get("language")
         spoken = language if language in LANGUAGES else scene.question.sheet.language
         told["mobility"] = pictures.mobility_text(scene, spoken, 0 if trial else len(scene.drivers))
         told["freedom"] = mobility_of(scene).value
@@ -147,8 +149,7 @@ class Message(BaseModel):
         except ValidationError as error:
             wrong |= {str(one["loc"][0]): one["input"] for one in error.errors(include_url=False)}
         if wrong:
-            told = ((*_NEEDED.get(key, (key, "")), value) for key, value in wrong.items())
-            raise CallError(*(Problem(at, "found value", needed, value=f"{value!r:.60}") for at, needed, value in told))
+            raise CallError(*(_refused(key, value) for key, value in wrong.items()))
         return made
 
     @property
@@ -180,6 +181,12 @@ _NEEDED: Mapping[str, tuple[str | Phrase, Phrase]] = {
     "count": ("variants", Phrase("give a number from 1 to", most=MOST_VARIANTS)),
 }  # fmt: skip
 """What a key of a message is about, and what it needs."""
+
+
+def _refused(key: str, value: object) -> Problem:
+    """The problem of a message's value that its question cannot use."""
+    where, needed = _NEEDED.get(key, (key, ""))
+    return Problem(where, "found value", needed, value=f"{value!r:.60}")
 
 
 def _show(shelf: Shelf, asked: Message) -> Answer:
@@ -257,8 +264,8 @@ def _open(shelf: Shelf, asked: Message) -> Answer:
 def _thumbnail(shelf: Shelf, asked: Message) -> Answer:
     scene = asked.model_copy(update={"text": shelf.text(asked.name)}).scene(shelf)
     language = asked.language if asked.language in LANGUAGES else None
-    shown, title = pictures.thumbnail(scene, language), scene.question.title_in(asked.spoken)
-    return {"name": asked.name, "svg": shown, "title": title}
+    title = scene.question.title_in(asked.spoken)
+    return {"name": asked.name, "svg": pictures.thumbnail(scene, language), "title": title}
 
 
 def _diagrams(shelf: Shelf, asked: Message) -> Answer:
@@ -286,13 +293,15 @@ def _export(shelf: Shelf, asked: Message) -> Answer:
         if not drawn.figures:
             raise CallError.of("figure", "there is nothing to draw", "choose another figure")
         figure_name, figure = next(iter(drawn.figures.items()))
-        name, media, content = f"{scene.name}-{figure_name}.{kind}", _FIGURES[kind], figure.content(kind)
-    elif kind == "scene":
-        name, media, content = f"{scene.name}.toml", "application/toml", asked.text.encode()
-    elif kind in ("papers", "variants"):
-        name, media, content = f"{scene.name}-{kind}.zip", "application/zip", _papers(scene, asked, options)
-    else:
-        raise CallError.of("kind", f'"{kind!s:.40}"', "known here svg pdf png dxf papers variants")
+        return _file(f"{scene.name}-{figure_name}.{kind}", _FIGURES[kind], figure.content(kind))
+    if kind == "scene":
+        return _file(f"{scene.name}.toml", "application/toml", asked.text.encode())
+    if kind in ("papers", "variants"):
+        return _file(f"{scene.name}-{kind}.zip", "application/zip", _papers(scene, asked, options))
+    raise CallError.of("kind", f'"{kind!s:.40}"', "known here svg pdf png dxf papers variants")
+
+
+def _file(name: str, media: str, content: bytes) -> Answer:
     return {"name": name, "type": media, "data": base64.b64encode(content).decode()}
 
 
@@ -302,7 +311,8 @@ def _papers(scene: Mechanism, asked: Message, options: FigureOptions) -> bytes:
     from graphkin.api.classroom.problem_sets import problem_set
     from graphkin.table import have
 
-    formats, spoken, school = ("html", "pdf") if have("typst") else ("html",), options.language, options.convention
+    formats = ("html", "pdf") if have("typst") else ("html",)
+    spoken, school = options.language, options.convention
     packed = io.BytesIO()
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
@@ -353,8 +363,9 @@ QUESTIONS: Mapping[str, tuple[tuple[str, ...], Callable[[Shelf, Message], Answer
     "change": (("text", "changes"), lambda _, asked: {"text": changed(asked.text, asked.changes)}),
     "build": (("text", "step"), lambda _, asked: {"text": building.built(asked.text, asked.step)}),
     "complete": (("text", "line", "column"), _complete), "open": ((), _open),
-    "shelf": ((), lambda shelf, _: {"scenes": shelf.listing(), "new": sorted(NEW), "writes": shelf.folder is not None,
-                                    "only": shelf.only}),
+    "shelf": ((), lambda shelf, _: {
+        "scenes": shelf.listing(), "new": sorted(NEW), "writes": shelf.folder is not None, "only": shelf.only,
+    }),
     "thumbnail": ((), _thumbnail),
     "save": (("text",), lambda shelf, asked: {"mark": shelf.save(asked.name, asked.text, asked.mark)}),
     "watch": ((), lambda shelf, asked: {"changed": shelf.changed(asked.name, asked.mark)}),

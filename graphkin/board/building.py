@@ -123,7 +123,8 @@ def _end(made: Tables, step: Step, key: str, changes: OwnTables) -> tuple[str, l
             shown = value[:40]
             raise CallError.of(Phrase("point", point=shown), "has no place in the sketch", did_you_mean(shown, spots))
         return value, [float(x) for x in spots[value]]
-    place, name = _at(step, key), _free_letter(made, changes)
+    place = _at(step, key)
+    name = _free_letter(made, changes)
     changes[f"sketch.{name}"] = place
     return name, place
 
@@ -375,11 +376,12 @@ def _entry(
     if not isinstance(entry, Mapping):
         return {key: [_length(scene, x) for x in xy(to)]}
     if isinstance(entry["from"], str):
-        before, now = (z - places[entry["from"]] for z in (places[point], to))
+        origin = places[entry["from"]]
+        now = to - origin
         radius = _length(scene, abs(now))
         if radius == 0.0:  # it stays
             return {f"{key}.r": entry["r"]}
-        turned = float(entry.get("angle", 0.0)) + degrees(now / before)
+        turned = float(entry.get("angle", 0.0)) + degrees(now / (places[point] - origin))
         return {f"{key}.r": radius, f"{key}.angle": _rounded(math.remainder(turned, 360.0), 0.1)}
     first, second = (places[p] for p in entry["from"])
     side = "left" if cross(second - first, to - first) > 0 else "right"

@@ -284,9 +284,12 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
         limits: dict[str, Json] = {"low": low, "high": high, "turns": turns, "why": say(why, spoken)}
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
-    motion, forces = (telling(account, step) for step in sheet.steps), force_stages(account)
-    steps = [*((told.step.diagram, told, told.work) for told in motion),
-             *((stage.figure, told, told.work_in(spoken)) for stage in forces for told in stage.steps)]
+    motion = (telling(account, step) for step in sheet.steps)
+    forces = ((stage.figure, told) for stage in force_stages(account) for told in stage.steps)
+    steps = [
+        *((told.step.diagram, told, told.work) for told in motion),
+        *((figure, told, told.work_in(spoken)) for figure, told in forces),
+    ]
     return {
         "readings": [
             [symbol, on_paper, f"{measured} {unit}", f"{exact} {unit}", ok]

@@ -179,7 +179,8 @@ _PLACES: Mapping[str, tuple[str, ...]] = {
 def line_of(problem: Problem, text: str) -> int:
     """The line (from 1) of a problem: the line of its key, or of the nearest table that holds it; 0 for a problem of
     the whole text."""
-    where, known = problem.where, places(text)
+    where = problem.where
+    known = places(text)
     keys = [str(where)]
     if isinstance(where, Phrase):
         if where.key == "line":

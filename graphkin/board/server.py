@@ -95,7 +95,9 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
 
     async def served(request: Request) -> Response:
         """The page, or a file that it asks for."""
-        name, why, nonce = request.path_params.get("name", ""), refused(request), ""
+        name = request.path_params.get("name", "")
+        why = refused(request)
+        nonce = ""
         response: Response
         if "path" in request.path_params:
             response = PlainTextResponse("open the address that graphkin printed", 403)
@@ -107,8 +109,9 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
         elif name:
             response = PlainTextResponse(say(Phrase("there is no such file"), LANGUAGES[0]), 404)
         else:
-            nonce, body = secrets.token_urlsafe(16), (STATIC / "board.html").read_text(encoding="utf-8")
-            response = Response(body.replace("NONCE", nonce).replace("LANGUAGE", language), media_type="text/html")
+            nonce = secrets.token_urlsafe(16)
+            body = (STATIC / "board.html").read_text(encoding="utf-8").replace("NONCE", nonce)
+            response = Response(body.replace("LANGUAGE", language), media_type="text/html")
         sockets = " ".join(f"ws://{host}" for host in address.hosts)
         policy = (
             f"default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; img-src 'self' data: blob:; "

@@ -149,7 +149,8 @@ def progress_bar(shown: bool, target: Path | None = None) -> Iterator[Callable[[
 
         columns = BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
         bar = Progress(*columns, console=Console(stderr=True), transient=True)
-        task, started = bar.add_task("", total=None), time.monotonic()
+        task = bar.add_task("", total=None)
+        started = time.monotonic()
 
     def count(done: int, total: int) -> None:
         if time.monotonic() - started > 1.0 and not bar.live.is_started:

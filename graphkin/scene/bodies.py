@@ -50,7 +50,9 @@ def driver_tables(file: SceneTables) -> dict[str, Driver | DrivenSlide]:
 
 def items_of(given: Item | Sequence[Item] | None) -> list[Item]:
     """Names of guides, or angles to them, written alone or in a list."""
-    return [] if given is None else list(given) if isinstance(given, list | tuple) else [given]  # type: ignore[list-item]
+    if given is None:
+        return []
+    return list(given) if isinstance(given, list | tuple) else [given]  # type: ignore[list-item]
 
 
 def references(entry: object) -> tuple[str, ...]:
@@ -231,7 +233,8 @@ MOST_POINTS = 100
 
 def check_size(reading: Reading) -> None:
     """Raises SceneError for a file with too many links, or too many points of a link."""
-    links, before = reading.file.links, len(reading.problems)
+    links = reading.file.links
+    before = len(reading.problems)
     if len(links) > MOST_LINKS:
         reading.say("links", "found moving links", "at most are possible", count=len(links), limit=MOST_LINKS)
     for name, link in links.items():

@@ -274,7 +274,8 @@ def stated_driver(driver: model.Driver, tables: Iterable[Driver | DrivenSlide], 
     tables : of the file, where one of them may be that of this driver
     """
     # a sliding pair may be written by its sliding link alone
-    key, names = ("link", (driver.link,)) if driver.turns else ("slide", (driver.slide, driver.slide.split("/")[0]))
+    key = "link" if driver.turns else "slide"
+    names = (driver.link,) if driver.turns else (driver.slide, driver.slide.split("/")[0])
     table: Any = next((in_si(table, units) for table in tables if getattr(table, key, None) in names), None)
     value, rate, second = (None, None, 0.0) if driver.law is not None else driver.values
     time = None if driver.law is None else driver.law.time

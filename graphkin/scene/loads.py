@@ -82,7 +82,8 @@ def _pair(reading: Reading, where: str, ref: str) -> str:
 
 def _mass(reading: Reading, link: str, table: Mass, g: float) -> LinkMass | None:
     """The mass of a link, where ``g`` (m/s2) makes its weight."""
-    where, si = f"masses.{link}", in_si(table, reading.units)
+    where = f"masses.{link}"
+    si = in_si(table, reading.units)
     if _not_moving(reading, where, link):
         return None
     at = _place(reading, f"{where}.at", link, si.at)
@@ -144,19 +145,23 @@ def _spring(reading: Reading, name: str, table: Spring) -> SpringOn | None:
     if len(reading.problems) > known:
         return None
     p, q = table.between
-    a, b = (_end(reading, where, point, link) for point, link in zip((p, q), table.links or ("", ""), strict=True))
+    on_p, on_q = table.links or ("", "")
+    a = _end(reading, where, p, on_p)
+    b = _end(reading, where, q, on_q)
     if len(reading.problems) > known or not (a and b):
         return None
     if a == b:
         say(where, "both ends are on link", "two links where several have a point write", ends=a)
         return None
-    at, si = (reading.place(a, p), reading.place(b, q)), in_si(table, reading.units)
+    si = in_si(table, reading.units)
+    at = reading.place(a, p), reading.place(b, q)
     return SpringOn(name, (p, q), (a, b), at, si.rate, si.free, si.preload)
 
 
 def _end(reading: Reading, where: str, point: str, link: str) -> str:
     """The link of a spring's end: the given link, or the first link with the point, the frame before others."""
-    frame, here = reading.frame.name, f"{where}.{'links' if link else 'between'}"
+    frame = reading.frame.name
+    here = f"{where}.{'links' if link else 'between'}"
     if not link:
         missing = reading.wrong(reading.no_point(here, point))
         order = [frame, *sorted(reading.links, key=lambda name: reading.links[name].redundant)]

@@ -550,7 +550,8 @@ def written(source: SceneLike) -> tuple[OwnTables, str]:
                                     "save it as a file or give tomllib.loads")
             if isinstance(source, str) and text in library() and not os.path.isfile(text):
                 return parsed(library_text(text)), text
-            made, path = parsed(file_text(text)), Path(text)
+            made = parsed(file_text(text))
+            path = Path(text)
             for _, table in naming_files(made):
                 table["file"] = str(path.parent / table["file"])
             return made, path.stem

@@ -550,7 +550,7 @@ class Form(Generic[AnyTable]):
             both = Phrase("list comma of two", first=possible, second=near)
             return problem("found value", both if near.key == "did you mean" else possible)
         if kind == "greater_than_equal" and ctx["ge"] > 0:
-            sign = "found a negative" if value < 0 else "found a zero" if value == 0 else "found far too small a"
+            sign = "found a negative" if value < 0 else "found far too small a" if value else "found a zero"
             last = str(path[-1])
             noun = Phrase(f"noun {'scale' if last.endswith('scale') else _NOUNS.get(last, 'length')}")
             return problem(sign, "a must be positive", noun=noun)

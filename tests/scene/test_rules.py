@@ -34,6 +34,7 @@ BROKEN = {
     "huge": (("omega = 10", "omega = 1e20"), ["driver.omega", "1e+20", "1e+15"]),
     "huge integer": ((LINK1, "length = 1" + "0" * 400), ["links.1.length", "finite"]),
     "zero length": ((LINK1, "length = 0"), ["links.1.length", "0", "zero", "positive"]),
+    "tiny length": ((LINK1, "length = 1e-16"), ["links.1.length", "1e-16", "far too small", "positive"]),
     "negative length": ((LINK1, "length = -5"), ["links.1.length", "-5", "negative", "positive"]),
     "negative radius": ((E_AT, 'E = { from = "B", r = -5 }'), ["links.2.at.E.r", "-5", "positive"]),
     "truth for a number": ((LINK1, "length = true"), ["links.1.length", "true", "a number"]),
