@@ -321,6 +321,10 @@ def test_a_group_is_drawn_by_the_assumed_speed_of_a_sliding_pair(monkeypatch: py
     result = graphkin.check(STEEP)
     assumed = [symbol.kind for s in result.sheet.steps if isinstance(s, RateTrial) for symbol, _ in s.assumed]
     assert ["v", "v", "ar", "ar"] == assumed
+    velocity = next(step for step in result.sheet.steps if isinstance(step, Superposed))
+    ((symbol, speed),) = velocity.found
+    drawn = abs(result.sheet.vectors["velocity"][symbol].span) * result.sheet.scales.velocity
+    assert 1e3 * drawn == pytest.approx(abs(speed))
     assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
 
 
