@@ -13,8 +13,9 @@ import pytest
 import graphkin
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.scene.symbol import Symbol
 from graphkin.solver import solve
-from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, replacement_told
+from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, links_for, replacement_told
 from tests import scenes
 from tests.rolling_linkages import cylinder_and_wheel, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim
 
@@ -326,3 +327,10 @@ def test_a_structure_is_pickled_without_what_was_made_of_it() -> None:
 def test_a_pin_in_a_slot_is_told_among_the_higher_pairs() -> None:
     said = [str(phrase) for phrase in replacement_told(analyse(mechanism_of("geneva-step")))]
     assert ["pin B in a slot of link 2 is a higher pair"] == said
+
+
+def test_results_kept_with_a_structure_are_told_apart_by_what_is_asked() -> None:
+    structure = analyse(mechanism_of("shaper-scheme-2"))
+    first, second = (links_for(structure, Symbol("omega", link=link)) for link in ("3", "4"))
+    assert ({"3"}, {"4"}) == (first, second)
+    assert second is links_for(structure, Symbol("omega", link="4"))
