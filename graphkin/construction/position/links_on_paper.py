@@ -107,7 +107,8 @@ def start_board(
 ) -> PlacedLinks:
     """The empty paper with the fixed points pricked, at values of the drivers (rad, m)."""
     ground = structure.scene.frame.name
-    paper = PlacedLinks(structure.links, mm, structure.followed(values), {ground: Pose(0j, 1 + 0j)}, instrument)
+    values = structure.followed(values) if structure.followers else values
+    paper = PlacedLinks(structure.links, mm, values, {ground: Pose(0j, 1 + 0j)}, instrument)
     if not instrument.faultless:
         paper.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
     return paper
