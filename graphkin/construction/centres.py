@@ -414,7 +414,8 @@ class CircleDiagram:
             # the triangles a, b, via: the side from a to via is missing
             missing = self.placed[b].keys() - self.placed[a].keys() - {a}
             for via in [name for name in self.links.names if name in missing]:
-                (other, place), pair = self.placed[b][via], self.links.pair(a, via)
+                other, place = self.placed[b][via]
+                pair = self.links.pair(a, via)
                 if len(self.lines[pair]) == MOST_LINES:
                     continue
                 line, sine = wedge(centre.place, place)

@@ -204,7 +204,8 @@ def positioned(
     paper = place(planned.opened, planned.elements, 1.0 / scales.length, assembly, instrument, told_on)
     polygons = Polygons.begun(board, planned.opened, paper, scales, own_values)
     for inversion, motion in triangles:
-        polygons.given.update(zip(((order, inversion.key) for order in ORDERS), motion[1:], strict=True))
+        for order, rate in zip(ORDERS, motion[1:], strict=True):
+            polygons.given[order, inversion.key] = rate
         for step in inversion.carried_over(motion):
             board.do(step)
     return replace(polygons, at_contacts=planned.touching, chains={**planned.chains}, plans={**planned.plans})

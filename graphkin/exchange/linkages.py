@@ -93,9 +93,9 @@ def _slider(made: Bodies, node: ElementTree.Element, holders: list[str]) -> None
     """Add a connector that runs on the straight line between two others of one body."""
     limits = [c.get("id", "") for c in node if c.tag == "slidelimit"][:2]
     point = made.names[node.get("id", "")]
-    held = len(limits) == 2 and made.names.keys() >= {*limits} and holders
-    on = made.holder(limits) if held else None
-    if not held:
+    known = len(limits) == 2 and made.names.keys() >= {*limits}
+    on = made.holder(limits) if known else None
+    if not known or not holders:
         lost = "lost slider limits"
     elif _number(node, "slideradius"):
         lost = "lost slider round"

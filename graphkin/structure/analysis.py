@@ -212,7 +212,7 @@ def match(equations: Sequence[Sequence[N]]) -> dict[int, N]:
         came_from: dict[N, int] = {}
         queue = [start]
         step: N | None = None
-        for equation in queue:
+        for equation in queue:  # which grows meanwhile
             fresh = [unknown for unknown in equations[equation] if unknown not in came_from]
             came_from.update(dict.fromkeys(fresh, equation))
             step = next((unknown for unknown in fresh if unknown not in given), None)

@@ -112,7 +112,9 @@ def _turning(structure: Structure) -> Turning:
         return name != frame, name in blocks, order.get(name, len(order)), name
 
     def onward(turning: tuple[str, float, float], rates: tuple[float, float], on: bool) -> tuple[str, float, float]:
-        (first, omega, alpha), (rate, second), sign = turning, rates, 1.0 if on else -1.0
+        first, omega, alpha = turning
+        rate, second = rates
+        sign = 1.0 if on else -1.0
         return first, omega + sign * rate, alpha + sign * second
 
     turning: dict[str, tuple[str, float, float]] = {}
@@ -193,8 +195,11 @@ def _cycles(structure: Structure, element: Element, known: Sequence[Pair]) -> li
     pairs = element.all_pairs
     known_links = [n for pair in pairs for n in pair.links if n not in element.members]
     starts: dict[str, list[Passage]] = {name: [] for name in known_links}
-    path = carried(starts, [(*pair.links, pair) for pair in pairs],
-                   lambda path, pair, on: [*path, _through(pair, pair.links[not on])])  # fmt: skip
+
+    def onward(path: list[Passage], pair: Pair, from_first: bool) -> list[Passage]:
+        return [*path, _through(pair, pair.a if from_first else pair.b)]
+
+    path = carried(starts, [(pair.a, pair.b, pair) for pair in pairs], onward)
     tree = [passages[-1][1] for passages in path.values() if passages]
     cycles = []
     for pair in (pair for pair in pairs if pair not in tree):
@@ -224,7 +229,8 @@ def _over_known(structure: Structure, start: str, end: str, known: Sequence[Pair
 
 
 def _oriented(structure: Structure, cycle: list[Passage]) -> Sequence[Passage]:
-    """A cycle from the frame outwards, its first edge to a driven link, if it has one."""
+    """A cycle whose first edge leads to a driven link if it has one, else to the frame; it passes the crank from the
+    frame outwards."""
     driven, frame = {e.link for e in structure.driven}, structure.scene.frame.name
     links = [link for _, _, link in cycle]
     first = next((k for k, link in enumerate(links) if link in driven), links.index(frame) if frame in links else 0)
@@ -366,13 +372,15 @@ def loops_in_numbers(
 def _solved(
     loops: Sequence[Loop], axes: Mapping[str, complex], travels: Mapping[str, float], turning: Turning, known: Rates
 ) -> LoopBlock | None:
-    """Loops solved together for the rates of their unknowns; what the known rates give stands on the right side.  None
+    """Loops solved together for the rates of their unknowns: an angle turns each arrow z that it leads by i z, a travel
+    lengthens the one along its guide by the unit vector u; what the known rates give stands on the right side.  None
     where there are not two unknowns a loop, or the position is singular.
 
     Parameters
     ----------
     loops : at the position, with the axis and the travel of each arrow
     axes, travels : of links, and of sliding pairs (m), from which the values of the unknowns come
+    known : first and second rates of what was found before
     """
     unknowns = loops[0].unknowns
     if len(unknowns) != 2 * len(loops):

@@ -428,7 +428,8 @@ def carried(
         for a, b, edge in edges:
             if (a in values) != (b in values):
                 here, there = (a, b) if a in values else (b, a)
-                values[there], grown = onward(values[here], edge, here == a), True
+                values[there] = onward(values[here], edge, here == a)
+                grown = True
     return values
 
 
@@ -566,7 +567,7 @@ def kept_with(
 
     @wraps(function)
     def known(keeper: Keeper, /, *args: Others.args, **named: Others.kwargs) -> Result:
-        key = function.__qualname__, args, *named.items()
+        key = function.__module__, function.__qualname__, args, *named.items()
         if key not in keeper.kept:
             keeper.kept[key] = function(keeper, *args, **named)
         result: Result = keeper.kept[key]

@@ -241,7 +241,8 @@ def _levers(sheet: Sheet, state: ForceState, hand: Instrument) -> Iterator[Lever
 
 
 def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> MomentTerm:
-    """The moment about the pole of a force, or of a couple as a pair of forces on its link."""
+    """The moment of a force about the pole, at the end point of its point's velocity; of a couple as a pair of forces
+    at two points of its link, square to the line between them."""
     link, per_mm = acting.link, images.sheet.scales.velocity
     if acting.symbol.is_vector:
         end = TURN * images.end("velocity", link, acting.at)

@@ -553,7 +553,8 @@ def at_driver(cut: CutFree, element: Driven) -> ForceGroup:
     ------
     Unsolvable : "dead point": the balance does no work
     """
-    link, pair, (driver,) = element.link, element.pair, element.drivers
+    link, pair = element.link, element.pair
+    (driver,) = element.drivers
     balance = cut.drawn.balance(driver)
     cut.begin(element.links, "driver", "driver", (link,))
     chain, on, push = list[ForceVector](), cut.at_pair(pair, (link,)), balance.on(link)

@@ -1,7 +1,8 @@
 """The parts of the elements in the polygons: driven links, dyads, larger groups.
 
-Of a larger group contours of known shape come first, then special points or trial polygons, whose vectors are linear in
-the assumed rates (method of superposition: Hain, Applied Kinematics; Artobolevsky, Theory of mechanisms).
+Of a larger group contours of known shape come first, then special points or trial polygons.  All vectors are linear in
+the assumed rates: with k unknown rates it takes k + 1 polygons, whose gaps are divided proportionally (method of
+superposition: Hain, Applied Kinematics; Artobolevsky, Theory of mechanisms).
 """
 
 from __future__ import annotations

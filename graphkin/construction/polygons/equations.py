@@ -303,7 +303,8 @@ def _lay_off(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, e
     """Lay off known vectors, each from the tip of the one before; returns the last tip."""
     for part in parts:
         assert part.span is not None
-        tail, at, mm = at, plot.board.instrument.laid_off(at, part.span), abs(part.span)
+        tail, mm = at, abs(part.span)
+        at = plot.board.instrument.laid_off(tail, part.span)
         plot.board.notice(order, "zero vector", symbol=part.symbol, mm=mm)
         step = VectorStep("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=mm,
                           direction=part.direction)  # fmt: skip

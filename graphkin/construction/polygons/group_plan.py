@@ -206,8 +206,10 @@ class _Search:
                 third = [self._third(leg, at) for leg in legs if leg not in (first, second)]
                 quality = sine / (1.0 + away / self.size) * max(third, default=0.5)
                 choices.append((quality, (link,), (first, second), at))
-        if self.take(choices) or flat is None:
-            return bool(choices)
+        if self.take(choices):
+            return True
+        if flat is None:
+            return False
         link, first, second = flat
         edges = self.graph.edges[first[-1].end]
         bar = next((self.seen(e) for e in edges if e.link == link and e.end == second[-1].end), None)

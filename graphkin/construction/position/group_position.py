@@ -153,26 +153,28 @@ def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses)
     poses = {**paper.poses, **_fit(paper, reduced, guess)}
     values = np.array(reduced.values(poses, paper.mm))
 
-    def drawn(said: str) -> TrialDrawing:
-        drawing = TrialDrawing.of(reduced, paper, poses, values)
+    def drawn(at: np.ndarray, refusal: str) -> TrialDrawing:
+        drawing = TrialDrawing.of(reduced, paper, poses, at)
         if drawing is None:
-            raise stuck("not assembled", reduced.group.named, said)
+            raise stuck("not assembled", reduced.group.named, refusal)
         return drawing
 
     if reduced.trial:
-        trial, size = drawn("a trial drawing does not close"), paper.mm * reduced.structure.scene.size
+        trial = drawn(values, "a trial drawing does not close")
+        size = paper.mm * reduced.structure.scene.size
         gaps = [
             gap if constraint.is_angle else paper.instrument.read(gap * size) / size
             for gap, constraint in zip(trial.gaps, reduced.removed, strict=True)
         ]
-        exact, slopes = replace(paper, instrument=EXACT, pricked={}), []
+        exact = replace(paper, instrument=EXACT, pricked={})
+        slopes = []
         for change in CHANGE * np.eye(len(values)):
             low, high = (TrialDrawing.of(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
             if low is None or high is None:
                 raise stuck("dead point", links_named(reduced.group.links), "the trial drawing is at a dead point")
             slopes.append((high.gaps - low.gaps) / (2 * CHANGE))
         values = values - np.linalg.solve(np.array(slopes).T, np.array(gaps))
-    last = drawn("the last trial drawing does not close")
+    last = drawn(values, "the last trial drawing does not close")
     paper.pricked.update(last.drawn.pricked)
     paper.poses.update(reduced.put_back(last.drawn))
     paper.settle([r.left_out for r in reduced.removed if r.left_out])

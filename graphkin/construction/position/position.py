@@ -1,8 +1,9 @@
 """The mechanism on paper: every link placed by compass and ruler, in the order of solution, and the assembly: the
 scene's own position by its data, others followed from it.
 
-Larger groups are found by trial drawings, which start where the last one ended, at the scene's own position at values
-of the problem's sketch.
+Larger groups are found by trial drawings: from one position of the driver to the next the trial starts where the last
+one ended.  At the scene's own position they begin at values of the problem's sketch, or all places are found at which a
+group closes.
 """
 
 from __future__ import annotations
