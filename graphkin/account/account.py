@@ -31,7 +31,7 @@ from graphkin.words.symbols import RichText, rate, spaced
 from graphkin.words.written import pointing
 
 
-def telling(account: Account, step: Step) -> Telling:
+def telling(account: Account, step: Step) -> Telling[Step]:
     """The telling of a step."""
     return InMechanism(account, step) if step.diagram == "mechanism" else InPolygon(account, step)
 

@@ -55,7 +55,7 @@ LEVER_ROOM = 134.0, 130.0  # mm, width and height of a lever
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class InForces(Telling):
+class InForces(Telling[ForceStep]):
     """A step of the forces: of loads from outside, of a group, or of a lever."""
 
     group: ForceGroup = NO_GROUP
@@ -86,7 +86,7 @@ class InForces(Telling):
             case "moment":
                 moment = self.name(step.symbol)
                 return Neutral(moment, " = 0") if reason == "no couple" else moment
-            case "point":
+            case "point" if isinstance(step, MomentStep):
                 return letters.point(step.about)
             case "pole":
                 return pole(letters.convention, "velocity")
@@ -161,6 +161,7 @@ class InForces(Telling):
         """The arms of moments as measured on the mechanism, the forces without one, and the equation as ``ΣM_C = F_G5 x
         0.0488 m ... = 0, F^t_R45 = -10.7 N``; the shifted line of the force of a sliding pair."""
         equation, scene, units = self.step, self.sheet.scene, self.sheet.scene.units
+        assert isinstance(equation, MomentStep)
         name = self.name(equation.symbol, equation.part)
         of = [*((self.name(t.symbol), t.arm) for t in with_moments(equation)), (name, equation.unknown.arm)]
         arms = [force + f" {printed(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]

@@ -9,10 +9,10 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from graphkin.account.headings import number
-from graphkin.account.voice import Telling, numbered
+from graphkin.account.voice import KindOfStep, Telling, numbered
 from graphkin.construction.board.steps import (
     FINDS_A_POINT,
     Bar,
@@ -37,7 +37,7 @@ IN_LINE = 1e-9  # rad, or of a length: so near to an axis or a guide its own poi
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class InMechanism(Telling):
+class InMechanism(Telling[KindOfStep]):
     """A step of the mechanism."""
 
     def at(self, point: str) -> complex | None:
@@ -47,11 +47,10 @@ class InMechanism(Telling):
     @property
     def plain(self) -> Phrase:
         """The step without reference to its place on paper."""
-        phrase: Phrase = self.step.phrase
-        return phrase
+        return self.step.phrase
 
     @property
-    def places(self) -> object:
+    def places(self: InMechanism[PlaceStep]) -> object:
         """Fixed points and guides by their places on paper."""
         found = ((p, self.at(p)) for p in self.step.points)
         told = [Phrase("place of a point", point=_named(p), **_coordinates(z)) for p, z in found if z is not None]
@@ -63,18 +62,18 @@ class InMechanism(Telling):
         return listed(told) if told else None
 
     @property
-    def angle(self) -> str:
+    def angle(self: InMechanism[PlaceStep]) -> str:
         """The angle at which a link is drawn (degrees)."""
         return true_minus(f"{math.degrees(self.step.value):.6g}")
 
     @property
-    def base(self) -> str | None:
+    def base(self: InMechanism[PlaceStep]) -> str | None:
         """The link from which that angle is measured; None for the x axis."""
         return self.step.base or None
 
     # -- the points of a link ------------------------------------------------------------------------------------------
 
-    def _link_points(self) -> Phrase | None:
+    def _link_points(self: InMechanism[PlaceStep]) -> Phrase | None:
         """Each new point of a link from its drawn points."""
         step, link = self.step, self.step.link
         own = self.sheet.structure.links[link].points if link in self.sheet.structure.links else {}
@@ -141,7 +140,7 @@ class InMechanism(Telling):
     # -- points that are found -----------------------------------------------------------------------------------------
 
     @property
-    def side(self) -> str | None:
+    def side(self: InMechanism[PlaceStep]) -> str | None:
         """The side of the line between two points of a point found by arcs, or of the crossing of circles for a
         tangent."""
         one, other = map(self.at, self.step.points[:2])
@@ -152,7 +151,7 @@ class InMechanism(Telling):
         return "left" if cross(other - one, found[0] - one) > 0 else "right"
 
     @property
-    def crossing(self) -> str | None:
+    def crossing(self: InMechanism[PlaceStep]) -> str | None:
         """The choice between the crossings of an arc with a straight path, as seen on the paper."""
         point, bars = self.step.point, [
             s.b - s.a for one in self.sheet.placing("path") if one.point == self.step.point
@@ -168,7 +167,7 @@ class InMechanism(Telling):
         upright = abs(half.imag) > abs(half.real)
         return ("upper" if half.imag > 0 else "lower") if upright else ("right" if half.real > 0 else "left")
 
-    def _special_lines(self, language: str) -> Iterator[Phrase]:
+    def _special_lines(self: InMechanism[PlaceStep], language: str) -> Iterator[Phrase]:
         """The place of the special point."""
         step = self.step
         joints = map(self.account.letters.point, (step.point, *step.points))
@@ -179,7 +178,7 @@ class InMechanism(Telling):
 
     # -- trial positions -----------------------------------------------------------------------------------------------
 
-    def _positions(self) -> Phrase | None:
+    def _positions(self: InMechanism[TrialPositions]) -> Phrase | None:
         """Trial positions with the measured gaps of each, and the division."""
         table = self.step
         if not table.trials:
@@ -206,7 +205,7 @@ class InMechanism(Telling):
                 told = Phrase("trial division again", told=told, value=listed(rest[-1][0]))
         return Phrase("in turn", first=self.plain, second=told)
 
-    def _positions_lines(self, language: str) -> Iterator[Phrase]:
+    def _positions_lines(self: InMechanism[TrialPositions], language: str) -> Iterator[Phrase]:
         """Trial positions: the moved quantity, the construction of each point, the gap, and the value that closes
         it."""
         trial = self.step
@@ -334,12 +333,12 @@ class InMechanism(Telling):
         bar, base = (PointNames(link.bar[:2], bar=True) for link in (other, one))
         return Phrase("trial turn of bars", link=moved.link, bar=bar, base=base, hinge=_named(hinge))
 
-    sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InMechanism], Phrase | None]]] = {
+    sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InMechanism[Any]], Phrase | None]]] = {
         "frame": ("fixed on paper",), "angle": ("lay off angle from link", "lay off angle from x"),
         "points": _link_points, "whole link": _link_points, "arcs": ("place by arcs {side}",),
         "arc on path": ("crossing {crossing}",), "tangent": ("tangent {side}",), "positions": _positions,
     }  # fmt: skip
-    lines: ClassVar[Mapping[Reason, Callable[[InMechanism, str], Iterable[Phrase]]]] = {
+    lines: ClassVar[Mapping[Reason, Callable[[InMechanism[Any], str], Iterable[Phrase]]]] = {
         "positions": _positions_lines, "special point": _special_lines,
     }  # fmt: skip
 
