@@ -66,7 +66,8 @@ def known_words(
         ("lang", language, known_languages), ("convention", convention, CONVENTIONS),
         ("instrument", instrument, INSTRUMENTS), ("text", text, TEXTS),
     ):  # fmt: skip
-        wrong += [] if word is None else unknown_words(where, [word], known)
+        if word is not None:
+            wrong += unknown_words(where, [word], known)
     if not formats:
         wrong.append(Problem("format", "none given", "known here", names=listed(known_formats)))
     if any(isinstance(word, str) and word == "dxf" for word in formats) and find_spec("ezdxf") is None:

@@ -78,7 +78,7 @@ class Designed(Result):
         return Scene.of(scene_table(self.given, self.found.lengths, self.found.places), self.given.name)
 
     @cached_property
-    def confirmed(self) -> Sequence[Confirmed]:
+    def confirmed(self) -> tuple[Confirmed, ...]:
         """The asked values beside those of the scene."""
         task, metres = self.given.task, self.given.units.metres
 
@@ -87,21 +87,26 @@ class Designed(Result):
             return Confirmed(what, asked, found, abs(found - asked) <= CONFIRMS * size, unit)
 
         if isinstance(task, BarPositionsTask | FunctionTask):
-            return [row(what, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
-                        360.0) for what, asked, bar in self._directions(task)]  # fmt: skip
+            return tuple(
+                row(what, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
+                    360.0)
+                for what, asked, bar in self._directions(task)
+            )  # fmt: skip
         name = {GuideBarTask: "stroke_5/0", SliderCrankTask: "stroke_3/0"}.get(type(task), "swing_3")
         output = extremes(range_of(structure_of(mechanism_of(self.scene))), Symbol.parse(name))
         if isinstance(task, LimitsTask):
             # which limit is which: by the turns that bring them together
             ends = math.degrees(output.low), math.degrees(output.high)
             gaps = [min((math.remainder(end - asked, 360.0) for end in ends), key=abs) for asked in task.angles]
-            return [row(Phrase("design limit value", angle=f"{asked:.6g}°"), asked, asked + gap, 360.0)
-                    for asked, gap in zip(task.angles, gaps, strict=True)]  # fmt: skip
+            return tuple(
+                row(Phrase("design limit value", angle=f"{asked:.6g}°"), asked, asked + gap, 360.0)
+                for asked, gap in zip(task.angles, gaps, strict=True)
+            )
         if isinstance(task, CrankRockerTask):
             first = row(Phrase("design swing value"), task.swing, math.degrees(output.stroke), 360.0)
         else:
             first = row(Phrase("design stroke value"), task.stroke, output.stroke / metres, task.stroke)
-        return [first, row(Phrase("design K value"), task.K, output.ways.ratio, task.K)]
+        return first, row(Phrase("design K value"), task.K, output.ways.ratio, task.K)
 
     def _directions(
         self, task: BarPositionsTask | FunctionTask

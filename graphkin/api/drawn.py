@@ -24,11 +24,9 @@ from graphkin.api.arguments import (
     unknown_words,
 )
 from graphkin.api.cams import cam_made, cam_table
-from graphkin.api.centred import ROOM, found_centres
 from graphkin.api.checked import Checked, checked, settled, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
-from graphkin.checking.centres import must_agree
 from graphkin.checking.readings import report_on
 from graphkin.checking.report import ReadValue
 from graphkin.construction import EXACT, Instrument, Plan, execute, plan, plan_with_forces
@@ -179,6 +177,9 @@ class Drawn(OfScene, Result):
 
 
 def _centres(drawn: Drawn) -> tuple[Any, ...]:
+    from graphkin.api.centred import ROOM, found_centres
+    from graphkin.checking.centres import must_agree
+
     whole = drawn.checked
     # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres
     exact = whole.sheet.instrument == EXACT.name

@@ -154,8 +154,8 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     if other is None:
         pins = dict.fromkeys(s.pin for s in checked.mechanism.slides if s.higher)
         return [say(Phrase("at pins", points=listed([*pins])), language)] if pins else []
-    said = ("at contact", "at pitch curve")
-    ways = dict.fromkeys(("".join(map(str, n.of.values())), n.key) for n in other.sheet.remarks if n.key in said)
+    gaps = {"at contact": "contact", "at pitch curve": "point"}
+    ways = dict.fromkeys((str(n.of[gaps[n.key]]), n.key) for n in other.sheet.remarks if n.key in gaps)
     if not ways:  # nothing asked leads over a contact
         return []
     names, curve = [name for name, _ in ways], any(key == "at pitch curve" for _, key in ways)
@@ -167,8 +167,8 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
         for symbol, length, said, _, unit, _ in reading_words(other)
         if any(f"_{n}@" in symbol for n in names)
     ]
-    where = {"point" if curve else "contact": listed(names)}
     key = "at pitch curve" if curve else "at contact"
+    where = {gaps[key]: listed(names)}
     key += " agrees" if other.ok and alike == len(both) else " differs"
     lines = [say(Phrase(key, **where, agreeing=alike, readings=len(both)), language)]
     return [*lines, *(f"  {line}" for line in found)]

@@ -242,7 +242,8 @@ def advise(
     if not parts:
         return None
     symbol = max(parts, key=parts.__getitem__)
-    relative, gains = parts[symbol], {}
+    relative = parts[symbol]
+    gains = {}
     for figure in ("length", "velocity", "acceleration"):
         scales: Scales = replace(planned.scales, **{figure: getattr(planned.scales, figure) / 2})
         larger = predict(replace(planned, scales=scales), name, tools, together=False)

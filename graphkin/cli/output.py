@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -16,6 +16,8 @@ from graphkin.files import json_text
 from graphkin.words import Phrase, Wording, say
 
 if TYPE_CHECKING:
+    from rich.progress import Progress
+
     from graphkin.api.results import Result
     from graphkin.cli.options import Given
 
@@ -142,23 +144,15 @@ def show_unused(heads: Sequence[str]) -> None:
 def progress_bar(shown: bool, target: Path | None = None) -> Iterator[Callable[[int, int], None] | None]:
     """A progress bar on stderr, if that is a terminal and the work takes longer than a second.  Of a run that keeps its
     finished work in the folder ``target`` it is said after an interruption how to continue."""
-    bar: Any = None
+    bar = None
     if shown and sys.stderr.isatty():
         from rich.console import Console
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
         columns = BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()
         bar = Progress(*columns, console=Console(stderr=True), transient=True)
-        task = bar.add_task("", total=None)
-        started = time.monotonic()
-
-    def count(done: int, total: int) -> None:
-        if time.monotonic() - started > 1.0 and not bar.live.is_started:
-            bar.start()
-        bar.update(task, completed=done, total=total)
-
     try:
-        yield count if bar else None
+        yield _counting(bar) if bar else None
     except KeyboardInterrupt:
         if target is not None:
             complain(Phrase("interrupted what is done is kept in the", target=target))
@@ -166,3 +160,16 @@ def progress_bar(shown: bool, target: Path | None = None) -> Iterator[Callable[[
     finally:
         if bar:
             bar.stop()
+
+
+def _counting(bar: Progress) -> Callable[[int, int], None]:
+    """Count the finished work on a bar, which is shown after a second."""
+    task = bar.add_task("", total=None)
+    started = time.monotonic()
+
+    def count(done: int, total: int) -> None:
+        if time.monotonic() - started > 1.0 and not bar.live.is_started:
+            bar.start()
+        bar.update(task, completed=done, total=total)
+
+    return count

@@ -158,10 +158,11 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     """
     table = table_of(students)
     heads = [head.strip().lower() for head in table.heads]
-    columns = {
-        role: heads.index(head) for role, names in HEADS.items()
-        for head in reversed(heads) if head in names
-    }  # fmt: skip
+    columns: dict[str, int] = {}
+    for i, head in enumerate(heads):
+        for role, names in HEADS.items():
+            if head in names:
+                columns.setdefault(role, i)
     if "name" not in columns and "id" not in columns:
         raise CallError.of(str(students), "no column of names", "write a head name or id",
                            names=some_of(table.heads))

@@ -224,9 +224,10 @@ def examined(
         bound = predicted[symbol].bound if symbol in predicted else 0.0
         unit = symbol.unit(scene.units)
         why = None if symbol in idle else _missed(symbol, value, bound, bounds.tolerance)
-        if why and (strict or not math.isfinite(bound)):
-            raise Unfit(why)
-        remarks += [why] if why else []
+        if why:
+            if strict or not math.isfinite(bound):
+                raise Unfit(why)
+            remarks.append(why)
         bounded.append(Answer(str(symbol), float(f"{unit.of(value):.12g}"), float(f"{unit.of(bound):.6g}"), unit.text))
     return Variant(name, made, tuple(bounded), tuple(remarks))
 
@@ -235,8 +236,9 @@ def _missed(symbol: Symbol, value: float, bound: float, tolerance: float) -> Phr
     """The reason against an answer whose error by pencil may exceed the allowed part of it; None for others."""
     if not math.isfinite(bound):
         return Phrase("unfit near dead point", symbol=str(symbol))
-    missed = Phrase("unfit missed", symbol=str(symbol), percent=f"{100 * tolerance:.2g}")
-    return missed if bound > tolerance * abs(value) else None
+    if bound > tolerance * abs(value):
+        return Phrase("unfit missed", symbol=str(symbol), percent=f"{100 * tolerance:.2g}")
+    return None
 
 
 def _within_reach(
@@ -254,7 +256,8 @@ def _moved(source: Tables, base: Tables) -> OwnTables:
     if motion.status[0] != "ok":
         raise Unfit(motion.said(0))
     made = copy.deepcopy(dict(source))
-    made["sketch"], step = {}, round_step(start.size / start.units.metres)
+    made["sketch"] = {}
+    step = round_step(start.size / start.units.metres)
     for point, names in start.holders.items():
         if start.frame.name not in names:
             z = complex(motion.position(point)[0]) / start.units.metres
