@@ -17,7 +17,8 @@ from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPha
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, joined, listed
 
-TURN = math.tau * (1 + 1e-12)
+NONE, TURN = 1e-12 * math.tau, (1 + 1e-12) * math.tau
+"""rad: no part of a turn, and a whole one, as far as rounding tells."""
 ACTING = ("masses", "loads", "springs")
 """The tables of what makes forces."""
 
@@ -200,8 +201,8 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> LoadPhase | None:
     given = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
     if slides and start >= end:
         say(f"{where}.driver", given, "the travel grows between them")
-    elif not slides and not 0.0 < end - start <= TURN:
-        wanted = Phrase("two different values" if end <= start else "at most a turn lies between them")
+    elif not slides and not NONE < end - start <= TURN:
+        wanted = Phrase("two different values" if end - start <= NONE else "at most a turn lies between them")
         say(f"{where}.driver", given, Phrase("a load that acts always has no when", wanted=wanted))
     return LoadPhase(start=start, end=end)
 

@@ -542,6 +542,8 @@ class Form(Generic[AnyTable]):
             return problem("found value", "a number is written without quotation marks")
         if kind in _KINDS:
             return problem("found value", _KINDS[kind])
+        if kind == "finite_number":
+            return problem("found value", "a finite number is wanted")
         if kind == "literal_error":
             choices = re.findall(r"'([^']*)'", ctx["expected"])
             names = listed([f'"{c}"' for c in choices] or [str(ctx["expected"])])
@@ -550,7 +552,7 @@ class Form(Generic[AnyTable]):
             both = Phrase("list comma of two", first=possible, second=near)
             return problem("found value", both if near.key == "did you mean" else possible)
         if kind == "greater_than_equal" and ctx["ge"] > 0:
-            sign = "found a negative" if value < 0 else "found far too small a" if value else "found a zero"
+            sign = "found a negative" if value < 0 else "found a zero" if value == 0 else "found far too small a"
             last = str(path[-1])
             noun = Phrase(f"noun {'scale' if last.endswith('scale') else _NOUNS.get(last, 'length')}")
             return problem(sign, "a must be positive", noun=noun)

@@ -28,7 +28,7 @@ BROKEN = {
     "unknown unit": (("[frame]", '[units]\nlength = "mn"\n[frame]'), ["units.length", '"mn"', '"mm"']),
     "unknown key of units": (("[frame]", '[units]\ntime = "h"\n[frame]'), ["units.time", "length"]),
     "top key in a table": (("omega = 10", 'omega = 10\nfind = ["v_B"]'), ["driver.find", "top of the file"]),
-    "infinite": ((LINK1, "length = inf"), ["links.1.length", "inf", "finite"]),
+    "infinite": ((LINK1, "length = inf"), ["links.1.length", "inf", "a finite number is wanted"]),
     "overflow": ((LINK1, "length = 1e400"), ["links.1.length", "inf", "finite"]),
     "not a number": (("omega = 10", "omega = nan"), ["driver.omega", "nan", "finite"]),
     "huge": (("omega = 10", "omega = 1e20"), ["driver.omega", "1e+20", "1e+15"]),
@@ -481,6 +481,12 @@ BESIDE = {
                      "loads.P.when: has both stroke and driver; give one of them"),
     "when back": (IN_TURN, [("HERE", '{ stroke = "5/6", from = 0.9, to = 0.5 }')],
                   "loads.P.when: from 0.9 to 0.5; parts of the stroke grow from 0 to 1"),
+    "when a turn back": (IN_TURN, [("HERE", "{ driver = [-118, -478] }")],
+                         "loads.P.when.driver: found -118, -478; two different values; a load that acts always has no "
+                         "when"),
+    "when a turn back, rounded": (IN_TURN, [("HERE", "{ driver = [-125, -485] }")],
+                                  "loads.P.when.driver: found -125, -485; two different values; a load that acts "
+                                  "always has no when"),
     "when a slide goes back": (CYLINDER, [("angle = -90", "angle = -90\nwhen = { driver = [500, 400] }")],
                                "loads.Q.when.driver: found 500, 400; the travel grows between them"),
     "balance without place": (LOADED, [('on = "1"\n[positions]', 'on = "1"\nangle = 20\n[positions]')],
