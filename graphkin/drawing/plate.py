@@ -50,8 +50,8 @@ class Plate:
         toward: tuple[float, ...] = (), step: int | None = None, between: Words = "",
     ) -> None:  # fmt: skip
         """A name of a point, or of the line between two; as `Label.of`."""
-        at = mapped(mark, on_page)
-        self.labels += [Label.of(runs, at, id, colour=colour, rank=rank, toward=toward, step=step, between=between)]
+        self.labels.append(Label.of(runs, mapped(mark, on_page), id, colour=colour, rank=rank, toward=toward,
+                                    step=step, between=between))  # fmt: skip
 
     def arrow(
         self, layer: str, id: str, tail: complex, tip: complex, symbol: RichText, size: float = 3.0, *,

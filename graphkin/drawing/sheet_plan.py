@@ -66,8 +66,10 @@ class SheetPlan:
     def holds(self, sizes: tuple[tuple[float, float], ...]) -> bool:
         """Whether mechanism and polygons of these widths and heights fit."""
         rooms = self.room.mechanism, self.room.polygon, self.room.polygon
-        both = (pair for each in zip(sizes, rooms, strict=True) for pair in zip(*each, strict=True))
-        return all(size <= most * (1 + 1e-9) for size, most in both)
+        return all(
+            width <= room[0] * (1 + 1e-9) and height <= room[1] * (1 + 1e-9)
+            for (width, height), room in zip(sizes, rooms, strict=True)
+        )
 
 
 def sheet_room(scene: Mechanism) -> Room:

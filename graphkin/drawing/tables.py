@@ -19,7 +19,7 @@ from graphkin.account.headings import remarks, term
 from graphkin.account.notation import Notation
 from graphkin.account.voice import Account
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
-from graphkin.construction.board.sheet import Sheet
+from graphkin.construction.board.sheet import Reading, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, row, table
 from graphkin.drawing.ink.primitives import Primitive, Run, Text
@@ -69,14 +69,16 @@ def table_rows(report: Report) -> list[TableRow]:
         if symbol.is_vector or symbol.scope != "motion":
             shown.append(TableRow(compared))
             continue
-        readings = [entry.compared.reading for entry in shown] + [compared.reading]
-        turns = [(reading.symbol.kind, reading.value, reading.on_paper) for reading in readings]
-        alike = turns.index(turns[-1])
-        if alike < len(shown):
+        alike = next((i for i, row in enumerate(shown) if _alike(row.compared.reading, compared.reading)), None)
+        if alike is not None:
             shown[alike] = replace(shown[alike], more=(*shown[alike].more, symbol.link))
         elif compared.on_paper:
             shown.append(TableRow(compared))
     return sorted(shown, key=lambda row: row.rank)
+
+
+def _alike(one: Reading, other: Reading) -> bool:
+    return (one.symbol.kind, one.value, one.on_paper) == (other.symbol.kind, other.value, other.on_paper)
 
 
 def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:

@@ -374,7 +374,8 @@ def pins_in_slots(reading: Reading) -> tuple[Pair, ...]:
         for ref in items_of(pin.slots):
             on, _, guide = ref.partition(".")
             here = f"{where}.in"
-            if reading.wrong(reading.no_guide(here, ref) or _pin_problem(here, point, pin, ref, reading, pins)):
+            problem = reading.no_guide(here, ref) or _pin_problem(here, point, pin, ref, reading, pins)
+            if reading.wrong(problem):
                 continue
             if f"{point}/{on}" in reading.pairs:
                 reading.say(where, "is also the name of a sliding pair", "rename link", point=point, on=on)
@@ -439,8 +440,9 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
     for name, points in known.items():
         for point in points:
             holders.setdefault(point, []).append(name)
+    together = [[meant[name] for name in pair] for pair in sides]
     island = {name: {name} for name in known}
-    for joined in (*([meant[name] for name in pair] for pair in sides), *holders.values()):
+    for joined in (*together, *holders.values()):
         whole = set().union(*(island[name] for name in joined))
         island |= dict.fromkeys(whole, whole)
     moving = (name for name in known if reading.frame.name not in island[name])

@@ -475,6 +475,7 @@ class LawCam:
         return self.link, self.follower
 
     members = bodies
+    """The links without which it is none."""
 
     @property
     def lengths(self) -> tuple[float, ...]:

@@ -359,7 +359,8 @@ def _turn_by_points(position: StatedPosition, body: Placement) -> None:
     pairs = ((p, q) for i, q in enumerate(placed) for p in placed[:i])
     far = max(pairs, key=lambda pq: abs(body.local[pq[1]] - body.local[pq[0]]), default=None)
     if far:
-        local, arm = (where[far[1]] - where[far[0]] for where in (body.local, places))
+        local = body.local[far[1]] - body.local[far[0]]
+        arm = places[far[1]] - places[far[0]]
         if min(abs(local), abs(arm)) > position.tolerance:
             turn = arm / local
             body.turn, body.arm = turn / abs(turn), abs(arm)
@@ -391,9 +392,10 @@ def _move_by_travels(position: StatedPosition) -> None:
         slider = position.bodies[pair.a]
         along = guide.through + guide.direction * position.travels[pair.key]
         placed = position.places.keys()
+        rail_is_loose = rail.origin is None and not rail.local.keys() & placed
         if slider.origin is None and not slider.local.keys() & placed:
             slider.origin = rail.world(along)
-        elif slider.origin is not None and rail.turn and rail.origin is None and not rail.local.keys() & placed:
+        elif slider.origin is not None and rail.turn is not None and rail_is_loose:
             rail.origin = slider.origin - rail.turn * along
 
 
@@ -589,9 +591,10 @@ def check_distances(position: StatedPosition) -> None:
     places += [(length, f"links.{name}.length") for length, name in bars]
     far, where = max(places, key=lambda place: place[0])
     if far > FARTHEST * short:
-        distance, shortest = (f"{length / position.reading.metres:.3g}" for length in (far, short))
+        metres = position.reading.metres
         position.reading.say(where, "lies away beside a bar of link", "too far apart sixteen digits hold at most",
-                             distance=distance, short=shortest, body=body, farthest=f"{FARTHEST:.0e}")
+                             distance=f"{far / metres:.3g}", short=f"{short / metres:.3g}", body=body,
+                             farthest=f"{FARTHEST:.0e}")
 
 
 def check_agreement(position: StatedPosition) -> None:
@@ -629,7 +632,8 @@ def _reach(body: Placement, local: complex) -> float:
 
 def _check_points(position: StatedPosition, body: Placement) -> None:
     """Note points of one link whose places in the link and in the world differ."""
-    ends, given, say = body.own, position.given, position.reading.say
+    ends, given = body.own, position.given
+    say = position.reading.say
     if len(ends) == 2 and body.length is not None and all(p in given for p in ends):
         drawn = abs(given[ends[1]] - given[ends[0]])
         if abs(drawn - body.length) > position.tolerance:

@@ -167,7 +167,8 @@ def gears_of(reading: Reading) -> tuple[PlacedGear, ...]:
 def _gear(name: str, gear: Gear, reading: Reading) -> PlacedGear | None:
     first, _, part = gear.between[0].partition(".")
     second, _, guide = gear.between[1].partition(".")
-    where, (z1, z2) = f"gears.{name}", gear.teeth
+    where = f"gears.{name}"
+    z1, z2 = gear.teeth
     between, teeth, carrier_key = f"{where}.between", f"{where}.teeth", f"{where}.carrier"
     rack, before, say = isinstance(z2, str), len(reading.problems), reading.say
     unknown = reading.wrong(*(reading.no_link(between, link) for link in (first, second)))

@@ -199,12 +199,16 @@ def _pieces(key: str, language: str) -> tuple[tuple[Words, str | None, str], ...
     """The words of a key, each with the name of the gap behind it, and the symbol of which that gap is the index."""
     found: list[tuple[Words, str | None, str]] = []
     before = ""
-    for words, gap, of, _ in [*Formatter().parse(_table(language)[key]), ("", "", "", None)]:
+    for words, gap, of, _ in Formatter().parse(_table(language)[key]):
         before += words
         if gap is not None:  # a brace that stands for itself parts the words too
-            found.append((noted(before) if "$" in before else before, gap or None, of or ""))
+            found.append((_with_symbols(before), gap, of or ""))
             before = ""
-    return tuple(found)
+    return (*found, (_with_symbols(before), None, ""))
+
+
+def _with_symbols(words: str) -> Words:
+    return noted(words) if "$" in words else words
 
 
 def has_words(key: str) -> bool:

@@ -87,7 +87,8 @@ def is_quotient(value: str, over: str, under: str) -> bool:
     """
     whole = _number(value)
     step = Decimal(1).scaleb(int(whole.as_tuple().exponent))
-    return 2 * abs(EXACT.subtract(EXACT.divide(_number(over), _number(under)), whole)) <= step
+    off = EXACT.subtract(EXACT.divide(_number(over), _number(under)), whole)
+    return EXACT.abs(EXACT.add(off, off)) <= step
 
 
 def increased(value: str, more: str) -> str:

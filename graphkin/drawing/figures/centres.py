@@ -308,16 +308,22 @@ def _pointer(inside: Box, solid: Sequence[Segment], centre: Centre) -> Segment:
     """The place of an arrow to a far centre: it points straight at the centre, clear of strokes, near the edge."""
     prices: list[float] = []
     arrows: list[Segment] = []
-    middle, far = inside.centre, centre.point
-    along = on_page(centre.direction or 0j)
-    for turned, straight in enumerate((along, -along) if far is None else (unit(on_page(far) - middle),)):
+    middle = inside.centre
+    far = None if centre.point is None else on_page(centre.point)
+    if far is not None:
+        ways = [unit(far - middle)]
+    else:
+        assert centre.direction is not None
+        ways = [on_page(centre.direction), -on_page(centre.direction)]
+    for turned, straight in enumerate(ways):
         for aside in ASIDES:
             start = middle + 1j * straight * aside
-            aim = straight if far is None else unit(on_page(far) - start)
+            aim = straight if far is None else unit(far - start)
             chord = inside.clip(start, start + 1e4 * aim)
-            long = abs(chord[1] - chord[0]) if chord is not None else 0.0
+            if chord is None:
+                continue
             for back in (0.0, 4.0, 10.0):
-                if chord is not None and long >= ARROW + back:
+                if abs(chord[1] - chord[0]) >= ARROW + back:
                     tip = chord[1] - back * aim
                     prices.append(0.12 * abs(aside) + 0.5 * back + 3.0 * turned)
                     arrows.append((tip - ARROW * aim, tip))

@@ -211,7 +211,8 @@ def _matrix(matrix: MatrixEquation, room: float) -> Block:
         bracket(at - 2.6 + past, -1.0)
         return at - 2.6 + past
 
-    x = bracketed(bracketed(0.0, columns, "end", 1.6) + 2.0, [names], "start")
+    x = bracketed(0.0, columns, "end", 1.6)
+    x = bracketed(x + 2.0, [names], "start")
     drawn.append(Text(complex(x + 1.6, height / 2 + 0.35 * size), rich("=", size)))
     x = bracketed(x + 5.0, [right], "end")
     return Block(Piece({"labels": tuple(drawn)}), height, x)

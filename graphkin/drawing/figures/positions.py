@@ -317,11 +317,13 @@ def _limits_of_crank(shown: Shown) -> tuple[float, complex, complex, complex] | 
     driven from another moving link, whose driver's value is no angle on the figure."""
     if not shown.own.scene.drivers[0].turns_about(shown.own.scene.frame.name):
         return None
-    ends, lag = [*map(_crank_end, shown.limits)], shown.measured.get("theta_lag")
-    if not all(ends) or lag is None or "theta" not in shown.marks:
+    lag = shown.measured.get("theta_lag")
+    if not shown.limits or lag is None or "theta" not in shown.marks:
         return None
-    (pivot, low), (_, high) = filter(None, ends)
-    return lag, pivot, low - pivot, high - pivot
+    low, high = map(_crank_end, shown.limits)
+    if low is None or high is None:
+        return None
+    return lag, low[0], low[1] - low[0], high[1] - high[0]
 
 
 _Wanted: TypeAlias = tuple[str, bool, Sequence[Parts]]

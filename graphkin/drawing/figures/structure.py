@@ -7,7 +7,6 @@ from cmath import phase
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import chain
 
 from graphkin.account.notation import Notation
 from graphkin.construction.board.sheet import Sheet
@@ -181,7 +180,8 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Notation, tag: st
     def drawn(times: float) -> Piece:
         return _drawn_apart(MechanismOnPaper(sheet.larger(times), letters), elements, f"group-{tag}")
 
-    room, inner = Box(0.0, 0.0, panel.width - 16.0, panel.height - 14.0), panel.grown(-0.6)
+    room = Box(0.0, 0.0, panel.width - 16.0, panel.height - 14.0)
+    inner = panel.grown(-0.6)
     piece, _ = _fitted(drawn, 1.0, room)
     ink = ink_box(piece.drawn)
     if ink is None:
@@ -201,7 +201,9 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element], id: str) -
     """Links of elements with their joints as a group, and the names of both."""
     structure = here.sheet.structure
     links = dict.fromkeys(n for e in elements for n in e.members)  # in one order, whatever the process
-    inner, outer = (tuple(chain.from_iterable(joints)) for joints in zip(*map(_joints, elements), strict=True))
+    joints = [_joints(element) for element in elements]
+    inner = [pair for within, _ in joints for pair in within]
+    outer = [pair for _, beyond in joints for pair in beyond]
     parts, labels = links_alone(here, links, 1, replaced=True)
     for name in links:
         dashed = strokes.REDUNDANT.coloured(here.colour(name))

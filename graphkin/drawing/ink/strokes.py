@@ -33,7 +33,8 @@ OF_CENTRES = Stroke(0.13, (), "#7a7a7a")  # lines on which centres lie
 HATCHING = Stroke(0.18)
 DIMENSION = Stroke(0.18)
 LEADER = Stroke(0.18)
-READ, READ_OFF = (Stroke(width, (1.6, 0.8), "#c2006b") for width in (0.3, 0.8))  # lines of a scan; a wrong one
+READ = Stroke(0.3, (1.6, 0.8), "#c2006b")  # lines read off a scan
+READ_OFF = Stroke(0.8, (1.6, 0.8), "#c2006b")  # a wrong one of them
 # Of the circle diagram: sides of permanent centres, of found ones, of those found otherwise.
 PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
 HALO = Stroke(2.0, (), "#ffe08a")  # around what is new: pale enough to print as a light grey

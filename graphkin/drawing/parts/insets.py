@@ -54,7 +54,7 @@ from graphkin.drawing.text import fitted, plain, rich, runs_width, text_box
 from graphkin.plane import cross, unit
 from graphkin.scene.model import PlacedPicture
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words.symbols import Words, rate, spaced
+from graphkin.words.symbols import RichText, Words, rate, spaced
 from graphkin.words.written import roman
 
 SMALL_INSET = 24.0, 21.0  # mm
@@ -272,9 +272,7 @@ def _mechanism_detail(
     bare = moved_piece(bare_mechanism(larger, letters), shift)
     kept = {f"label-point-{ref.point}" for ref in near}
     names = tuple(one for one in bare.labels if one.text.id in kept and inner.distance(middle_of(one.mark)) == 0.0)
-    # without their ids, which the mechanism itself has
-    bodies = map_tree(
-        bare.layers["mechanism"], lambda one: Group(one.children, "", one.classes) if isinstance(one, Group) else one)
+    bodies = map_tree(bare.layers["mechanism"], _without_id)
     named = with_labels(Piece({"mechanism": cut_to(bodies, inner)}, names), inner)
     both = spaced(", ", (letters.point(ref.point) for ref in near))
     words = term("detail", language, scale=f"{factor:g}") + ", " + both
@@ -295,6 +293,11 @@ def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
     pairs = [(abs(z - w), a, b) for i, (a, z) in enumerate(points) for b, w in points[:i]]
     close = [pair for pair in pairs if TOGETHER < pair[0] < CLOSE]
     return min(close, key=lambda pair: pair[0])[1:] if close else None
+
+
+def _without_id(thing: Primitive) -> Primitive:
+    """The primitive without its id, which the mechanism itself has."""
+    return Group(thing.children, "", thing.classes) if isinstance(thing, Group) else thing
 
 
 CoriolisTerm: TypeAlias = tuple[Vector, Vector, Size | None]
@@ -336,11 +339,16 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box
     id = vector.symbol.id
     middle = centre + 3.6 * on_page(unit(slip + turned))
     links = "".join(rule.links) if rule and rule.rule == "rate" and rule.rate == "omega" else ""
-    told = [("v-", letters.arrow(velocity.symbol), tips[0], slip, 0)]
-    told.append(("", letters.arrow(vector.symbol), tips[1], turned, 0))
-    told += [("omega-", rate("omega", links), middle, slip + turned, 1)] if links else []
-    names = (Label.of(rich(name, 2.8), at, f"label-inset-{kind}{id}", toward=(phase(way),), rank=rank)
-             for kind, name, at, way, rank in told)  # fmt: skip
+
+    def label(kind: str, name: RichText, at: complex, way: complex, rank: int = 0) -> Label:
+        return Label.of(rich(name, 2.8), at, f"label-inset-{kind}{id}", toward=(phase(way),), rank=rank)
+
+    names = [
+        label("v-", letters.arrow(velocity.symbol), tips[0], slip),
+        label("", letters.arrow(vector.symbol), tips[1], turned),
+    ]
+    if links:
+        names.append(label("omega-", rate("omega", links), middle, slip + turned, 1))
     name = letters.vector(vector.symbol)
     words = (name + " = " + letters.size(rule), name) if rule else (name,)
     piece = _inset(box, "acceleration", parts, words, 2.8, f"sense-{id}", ("inset",), up=2.3)
@@ -392,7 +400,8 @@ def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) 
             wrong = line is judged.off
             drawn: tuple[Primitive, ...] = (Line(*ends, strokes.READ_OFF if wrong else strokes.READ),)
             if wrong:
-                at, name = (ends[0] + ends[1]) / 2 + 1.2 - 1.2j, plain(line.name, 3.0)
+                at = (ends[0] + ends[1]) / 2 + 1.2 - 1.2j
+                name = plain(line.name, 3.0)
                 drawn += (Text(at, name, "start", strokes.READ_OFF.colour, classes=("label", "off")),)
             lines.append(Group(drawn, id=f"read-{line.name.replace('/', '-').replace('@', '')}", classes=("read",)))
     return Piece({"background": tuple(under), "answers": tuple(lines)} if under or lines else {})

@@ -220,12 +220,14 @@ def _number(here: MechanismOnPaper, link: str, mark: Mark, *toward: float) -> La
 
 
 def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
-    for link, longest in ((shape.link, shape.longest) for shape in here.shapes):
-        whole = _cylinder_part(here, link) or longest
-        block = next((b.at for b in here.sliders if b.slide.a == link), None)
-        mark = whole or (touching.within_round_body(here, link) if block is None else block)
+    for shape in here.shapes:
+        mark: Mark | None = _cylinder_part(here, shape.link) or shape.longest
+        if mark is None:
+            mark = next((b.at for b in here.sliders if b.slide.a == shape.link), None)
+        if mark is None:
+            mark = touching.within_round_body(here, shape.link)
         if mark is not None:
-            yield _number(here, link, mark)
+            yield _number(here, shape.link, mark)
 
 
 def _cylinder_part(here: MechanismOnPaper, link: str) -> tuple[complex, complex] | None:
@@ -468,15 +470,19 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
     for step, arc in arcs:
         middle = phase(arc.at - arc.centre)
         half = min(COMPASS / arc.radius, math.pi * 0.9)
-        # an arc is shown to the side (1 counter-clockwise) to which it begins along no bar that meets it
-        ways = [side * 1j * unit(arc.at - arc.centre) for side in (-1, 1)]
-        shown = [not any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars[same_place(arc.at)])
-                 for way in ways]  # fmt: skip
+        there = bars[same_place(arc.at)]
+        shown = [not _along_a_bar(arc, side, there) for side in (-1, 1)]
         first, last = (half * (one or not any(shown)) for one in shown)
         shape = Arc(on_page(arc.centre), arc.radius, middle - first, middle + last, strokes.CONSTRUCTION)
         covered = any(abs(block.at - arc.at) < SAME for block in here.sliders)
         (over if covered else under).append(Group((shape,), classes=("compass",), step=step.number))
     return Piece({"construction": tuple(under), "mechanism": tuple(over)})
+
+
+def _along_a_bar(arc: CompassArc, side: int, bars: set[complex]) -> bool:
+    """Whether an arc to a side (1 counter-clockwise) begins nearly along a bar that meets it."""
+    way = side * 1j * unit(arc.at - arc.centre)
+    return any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars)
 
 
 def trial_marks_in_mechanism(sheet: Sheet) -> Piece:

@@ -10,7 +10,7 @@ import math
 from cmath import phase, rect
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from itertools import pairwise
 
 from graphkin.account.notation import Notation
@@ -113,8 +113,11 @@ class MechanismOnPaper:
     @cached_property
     def found(self) -> Mapping[str, int]:
         """The first step that marks each point of the mechanism."""
-        marks = ((s.ref.point, step.number) for step in self.steps for s in step.strokes if isinstance(s, Mark))
-        return dict(reversed([*marks]))
+        found: dict[str, int] = {}
+        for step in self.steps:
+            for mark in (s for s in step.strokes if isinstance(s, Mark)):
+                found.setdefault(mark.ref.point, step.number)
+        return found
 
     @cached_property
     def shapes(self) -> tuple[LinkShape, ...]:
@@ -153,11 +156,13 @@ class MechanismOnPaper:
     @cached_property
     def _faces(self) -> tuple[Slider, ...]:
         """The flat faces of moving links as sliders: a contact with the direction of the face."""
-        pairs = self.scene.replaced_by
-        places = self.places
-        slides = (s for s in self.sheet.structure.slides if s.key in pairs and pairs[s.key].name in places)
-        return tuple(Slider(slide, places[pairs[slide.key].name], slide.along(self.sheet.poses), False)
-                     for slide in slides if slide.b in self.sheet.poses)  # fmt: skip
+        found = []
+        for slide in self.sheet.structure.slides:
+            pair = self.scene.replaced_by.get(slide.key)
+            at = None if pair is None else self.places.get(pair.name)
+            if at is not None and slide.b in self.sheet.poses:
+                found.append(Slider(slide, at, slide.along(self.sheet.poses), False))
+        return tuple(found)
 
     @cached_property
     def places(self) -> Mapping[str, complex]:
@@ -185,15 +190,18 @@ class MechanismOnPaper:
     @cached_property
     def feet(self) -> Mapping[str, float]:
         """The directions of the feet of fixed pivots (rad): down, unless links are in the way."""
+        return {point: self._foot(self.places[point]) for point in self.scene.frame.points if self.moving(point)}
 
-        def cost(here: complex, angle: float) -> float:
-            ways = (abs(math.remainder(angle - phase(way), math.tau)) for way in self.ways(here))
+    def _foot(self, here: complex) -> float:
+        ways = [phase(w) for w in self.ways(here)]
+
+        def cost(angle: float) -> float:
+            nearest = min((abs(math.remainder(angle - way, math.tau)) for way in ways), default=math.pi)
             end = here + (symbols.FOOT_HEIGHT + 1.0) * rect(1.0, angle)
             covered = sum(_inside(end, shape.corners) for shape in self.shapes)
-            return FOOT[angle] + max(0.0, 0.9 - min(ways, default=math.pi)) * 3 + 0.9 * covered
+            return FOOT[angle] + max(0.0, 0.9 - nearest) * 3 + 0.9 * covered
 
-        pivots = {point: self.places[point] for point in self.scene.frame.points if self.moving(point)}
-        return {point: min(FOOT, key=partial(cost, at)) for point, at in pivots.items()}
+        return min(FOOT, key=cost)
 
     def ways(self, here: complex) -> list[complex]:
         """Directions in which bars leave a place."""

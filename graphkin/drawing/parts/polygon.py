@@ -300,10 +300,8 @@ def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> 
     for order, (at, refs) in enumerate(places.items()):
         moving = [ref for ref in refs if ref.link or ref.point not in fixed]
         for i, ref in enumerate(moving):
-            id, ring = f"{here.diagram}-{ref}".replace("@", ""), i + (order == 0)
-            # a dot for the first point of a place, rings around it for coincident ones
-            dot = (Circle(here.at(at), END_RADIUS + ring * DOT_RING, stroke=Stroke(0.18)) if ring
-                   else Circle(here.at(at), END_RADIUS, strokes.BLACK))  # fmt: skip
+            id = f"{here.diagram}-{ref}".replace("@", "")
+            dot = _dot(here.at(at), i + (order == 0))
             said, since = spoken_ref(ref, here.language), here.ends_since[ref]
             group = Group((dot,), id=id, classes=("end",), title=said, since=since)
             yield Piece({here.diagram: (group,)}, (), (here.at(at),))
@@ -311,6 +309,13 @@ def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> 
             letters = spaced(sign(", "), filter(None, (here.letters.end(here.diagram, ref) for ref in moving)))
             id, since = f"label-{here.diagram}-{moving[0]}", here.ends_since[moving[0]]
             yield Piece(labels=_named(here, letters, at, id, 0, at, since))
+
+
+def _dot(at: complex, ring: int) -> Circle:
+    """A dot for the first point of a place, rings around it for coincident ones."""
+    if ring == 0:
+        return Circle(at, END_RADIUS, strokes.BLACK)
+    return Circle(at, END_RADIUS + ring * DOT_RING, stroke=Stroke(0.18))
 
 
 def _feet(here: PolygonOnPage, feet: Sequence[NamedPoint]) -> Iterator[Piece]:

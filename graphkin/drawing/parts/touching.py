@@ -207,10 +207,12 @@ def circular_slots(here: MechanismOnPaper) -> Iterator[Group]:
 
 def block_on_circle(here: MechanismOnPaper, link: str) -> list[Primitive]:
     """A link that is a block in a circular slot; nothing for other links."""
-    slots = (slot for slot, _ in _curved(here) if slot.block and slot.bar == link)
-    spots = ((here.places[slot.point], here.places[slot.centre]) for slot in slots)
-    return [part for at, centre in spots
-            for part in symbols.block(on_page(at), phase(1j * (at - centre)), here.colour(link))]  # fmt: skip
+    parts = list[Primitive]()
+    for slot, _ in _curved(here):
+        if slot.block and slot.bar == link:
+            at = here.places[slot.point]
+            parts += symbols.block(on_page(at), phase(1j * (at - here.places[slot.centre])), here.colour(link))
+    return parts
 
 
 def badges(here: MechanismOnPaper, spoken: str) -> list[Label]:
