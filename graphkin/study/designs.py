@@ -70,9 +70,12 @@ class Designs:
 
     def __getitem__(self, index: int) -> tuple[Value, ...]:
         """The values of one design, in the order of the keys."""
-        rows = self.rows or ((),)
-        row, *places = np.unravel_index(index, (len(rows), *map(len, self.grid)))
-        return (*rows[row], *(choices[k] for choices, k in zip(self.grid, places, strict=True)))
+        values: list[Value] = []
+        for choices in reversed(self.grid):
+            index, k = divmod(index, len(choices))
+            values.append(choices[k])
+        values.reverse()
+        return (*(self.rows[index] if self.rows is not None else ()), *values)
 
 
 def designs_of(

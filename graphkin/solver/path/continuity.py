@@ -152,7 +152,10 @@ def _singular_ahead(nodes: Sequence[float], determinants: Sequence[float]) -> fl
 
 
 def _bend(slope: Array, new_slope: Array, weight: Array) -> float:
-    """The relative change of the motion's direction over a step."""
+    """The relative change of the motion's direction over a step.
+
+    At a change point the other branch leaves in another direction, however small the step.
+    """
     most = max(float(np.max(np.abs(slope / weight))), float(np.max(np.abs(new_slope / weight))))
     return float(np.max(np.abs((new_slope - slope) / weight))) / (most or 1.0)
 
