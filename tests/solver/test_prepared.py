@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Sequence
 from importlib.util import find_spec
 
@@ -100,6 +102,27 @@ def test_no_compiled_loop_fills_more_columns_than_can_be_told_apart() -> None:
     ready = prepare(mechanism_of_text(scenes.FOUR_BAR, "four-bar"), MANY)
     loops = kernel_text(ready.code, True, True).split("for k in range(m)")[1:]
     assert [loop.count("[k] = ") for loop in loops] == [14, 6]
+
+
+@pytest.mark.parametrize("order", ["123", "132"], ids=["rod first", "barrel first"])
+def test_a_cylinder_whose_rod_slides_off_its_hinge_turns_as_its_triangle_gives(order: str) -> None:
+    links = {
+        "1": {"points": ["A", "B"], "length": 400},
+        "2": {"points": ["B"], "on": "3.g"},
+        "3": {"points": ["C"], "guides": {"g": {"through": [0, 30], "angle": 0}}},
+    }
+    scene = {
+        "frame": {"points": {"A": [0, 0], "C": [200, -300]}},
+        "links": {name: links[name] for name in order},
+        "driver": {"slide": "2", "travel": 520, "velocity": 60},
+    }
+    rates = prepare(mechanism_of(scene), ("omega_1", "omega_3")).at(0.520)
+    c, rod = 200 - 300j, 520 + 30j  # of C from A, of B from C in the barrel's axes
+    angle = math.acos((400**2 + abs(c) ** 2 - abs(rod) ** 2) / (2 * 400 * abs(c)))
+    b = cmath.rect(400, cmath.phase(c) + angle)
+    arm = 520 * 60 / (1j * b * (b - c).conjugate()).real  # of |B - C|^2 = travel^2 + 30^2
+    barrel = (1j * arm * b / (b - c) - 60 / rod).imag  # of B - C = rod e^(i theta)
+    assert rates == pytest.approx((arm, barrel), rel=1e-12)
 
 
 def test_positions_out_of_reach_are_marked() -> None:
