@@ -11,15 +11,19 @@ import pytest
 
 import graphkin
 from graphkin import solver
+from graphkin.construction.board.instruments import nudged
 from graphkin.construction.board.steps import TrialPositions
 from graphkin.construction.centres import find_centres
 from graphkin.construction.plan import draft
 from graphkin.construction.position import group_position
+from graphkin.construction.position.group_position import place_by_trial
+from graphkin.construction.position.links_on_paper import start_board
 from graphkin.construction.position.reduced_mechanism import reduced_mechanisms
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene_tables import Tools
 from graphkin.structure import analyse
-from tests.construction.test_groups import HELD
+from tests.construction.test_groups import BARE, HELD
 
 COUPLER_DRIVEN = {
     "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
@@ -111,6 +115,23 @@ def test_why_another_link_is_driven_for_a_driven_block_left_out_is_told() -> Non
         assert block in act.left_out
         assert any(block in (d.link, d.relative_to) for d in driven)
         assert sheet.poses[block].axis / sheet.poses[link].axis == pytest.approx(cmath.rect(1.0, turned), abs=1e-9)
+
+
+def test_what_a_hand_misreads_of_two_gaps_is_what_stays_open_of_each() -> None:
+    scene = mechanism_of(BARE)
+    structure, sheet = analyse(scene), draft(scene)
+    (group,) = structure.larger_groups
+    reduced, mm, fine = reduced_mechanisms(structure, group)[0], 1.0 / sheet.scales.length, 1e-3
+    poses = {name: pose.scaled(1.0 / (mm * scene.size)) for name, pose in sheet.poses.items()}
+    ruler = Tools(ruler=fine, compass=0, set_square=0, protractor=0, line_width=0)
+    left = set()
+    for act in range(15, 19):  # the two gaps are read in the middle of these
+        hand = nudged("pencil", ruler, {act: 1.0})
+        paper = start_board(structure, mm, {d.key: d.values[0] for d in scene.drivers}, hand)
+        place_by_trial(paper, reduced, poses)
+        left.add(tuple(round(gap * scene.size * mm / fine, 3) + 0.0 for gap in reduced.gaps(paper)))
+    misread = -round(1 / math.sqrt(12), 3)  # the width of a mark over sqrt(12)
+    assert {(0.0, 0.0), (misread, 0.0), (0.0, misread)} == left
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0], ids=["up to it", "from it on"])
