@@ -134,6 +134,21 @@ def test_what_a_hand_misreads_of_two_gaps_is_what_stays_open_of_each() -> None:
     assert {(0.0, 0.0), (misread, 0.0), (0.0, misread)} == left
 
 
+def test_of_the_grid_of_two_trial_drivers_the_places_that_miss_least_are_improved(monkeypatch) -> None:
+    monkeypatch.setattr(group_position, "MOST_IMPROVED", 14)  # of 54 places of the grid
+    scene = mechanism_of(BARE)
+    structure, motion = analyse(scene), solver.solve(scene)
+    (group,) = structure.larger_groups
+    known = start_board(structure, 1.0, {d.key: d.values[0] for d in scene.drivers})
+    fits = list(group_position.all_fits(reduced_mechanisms(structure, group)[1], known))
+    exact = {name: (complex(motion.poses[name].z[0]), complex(motion.poses[name].u[0])) for name in group.members}
+    off = [
+        max(abs(fit[name].origin - z) / scene.size + abs(fit[name].axis - u) for name, (z, u) in exact.items())
+        for fit in fits
+    ]
+    assert 0 == pytest.approx(min(off, default=math.inf), abs=1e-9)
+
+
 @pytest.mark.parametrize("sense", [1.0, -1.0], ids=["up to it", "from it on"])
 @pytest.mark.parametrize("last", [0.0032, 0.0031 + 1e-13], ids=["beside it", "at it"])
 def test_a_fit_next_to_the_last_value_that_can_be_drawn_is_found(last, sense, monkeypatch):
