@@ -5,13 +5,15 @@ from __future__ import annotations
 import cmath
 import math
 import random
+from functools import partial
 from itertools import combinations, pairwise
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from graphkin.api.centred import centres as checked_centres
-from graphkin.construction.centres import Centres, find_centres
+from graphkin.construction.centres import Centres, CircleDiagram, find_centres
 from graphkin.scene import library, mechanism_of, read
 from graphkin.scene.symbol import Symbol
 
@@ -96,6 +98,16 @@ def _two_fliers() -> dict[str, Any]:
 def test_the_centre_that_gives_most_others_is_measured_first() -> None:
     measured = [c.pair for c in find_centres(mechanism_of(_two_fliers())).found if c.way]
     assert 2 == len(measured)
+
+
+def test_of_centres_that_give_as_many_that_of_measured_links_comes_first_then_that_of_the_frame() -> None:
+    pairs = [("2", "3"), ("3", "4"), ("2", "1"), ("3", "1"), ("4", "1")]
+    links = SimpleNamespace(pairs=pairs, scene=SimpleNamespace(frame=SimpleNamespace(name="1")))
+    diagram = SimpleNamespace(links=links, table={}, reached=set(pairs), joined={})
+    to_measure = partial(CircleDiagram.to_measure, diagram)
+    assert ("3", "4") == to_measure(["3", "4"])
+    assert ("2", "1") == to_measure([])
+    assert ("3", "1") == to_measure(["1", "3", "4"])
 
 
 def test_what_kennedys_theorem_cannot_find_says_why_and_how_it_was_found() -> None:

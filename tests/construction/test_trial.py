@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from itertools import combinations
 from types import SimpleNamespace
 from typing import Any
 
@@ -18,7 +19,8 @@ from graphkin.construction.plan import draft
 from graphkin.construction.position import group_position
 from graphkin.construction.position.group_position import place_by_trial
 from graphkin.construction.position.links_on_paper import start_board
-from graphkin.construction.position.reduced_mechanism import reduced_mechanisms
+from graphkin.construction.position.position import own_position
+from graphkin.construction.position.reduced_mechanism import PlacedElements, reduced_mechanisms
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import Tools
@@ -88,6 +90,22 @@ def test_no_trial_driver_bears_the_name_of_a_real_one() -> None:
     structure = analyse(scene)
     (group,) = structure.larger_groups
     assert "2" not in {driver.key for reduced in reduced_mechanisms(structure, group) for driver in reduced.trial}
+
+
+@pytest.mark.parametrize(("name", "count"), [("triad-slider", 2), ("double-butterfly", 8)])
+def test_a_group_is_found_in_each_assembly_of_its_trial_dyads(name: str, count: int) -> None:
+    structure = analyse(mechanism_of(name))
+    (group,) = structure.larger_groups
+    known = own_position(PlacedElements(structure, structure.elements[: structure.elements.index(group)]))
+    reduced = next(reduced for reduced in reduced_mechanisms(structure, group) if len(reduced.trial) == 1)
+    fits = list(group_position.all_fits(reduced, known))
+    apart = [max(abs(a[n].origin - b[n].origin) for n in group.links) for a, b in combinations(fits, 2)]
+    assert (count, True) == (len(fits), min(apart) > 0.01)
+    for fit in fits:
+        poses = {**known.poses, **fit}
+        for point, names in structure.hinges.items():
+            places = [poses[n].place(structure.links[n].points[point] * known.mm) for n in names if n in poses]
+            assert places == pytest.approx(places[:1] * len(places), abs=1e-8)
 
 
 def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:

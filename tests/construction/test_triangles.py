@@ -123,3 +123,23 @@ def test_a_turn_of_a_crank_is_drawn_with_the_triangle_that_a_cylinder_holds() ->
     turned = [math.acos((120**2 + 90**2 - long**2) / (2 * 120 * 90)) for long in (90 - 30, 90 + 30)]
     axes = [math.pi - cmath.phase(limit.poses["7"].axis) for limit in sheet.limits["7"]]
     assert turned == pytest.approx(sorted(axes), abs=1e-9)
+
+
+@pytest.mark.quick
+def test_two_cylinders_on_one_link_close_triangles_about_different_links() -> None:
+    structure = analyse(mechanism_of({
+        "frame": {"points": {"A": [0, 0], "B": [300, 0]}},
+        "links": {
+            "1": {"points": ["A", "C"], "length": 100, "at": {"P": [60, 20]}},
+            "3": {"points": ["D", "E"], "length": 100, "at": {"S": [40, 25]}},
+            "4": {"points": ["E", "B"], "length": 110},
+            "2": {"points": ["C", "D"], "length": 120, "at": {"Q": [40, 30], "R": [80, 30]}},
+            "5": {"points": ["P"]}, "6": {"points": ["Q"], "on": "5"},
+            "7": {"points": ["R"]}, "8": {"points": ["S"], "on": "7"},
+        },
+        "driver": [{"slide": "6", "travel": 70, "velocity": 10}, {"slide": "8", "travel": 75, "velocity": 5}],
+        "sketch": {"C": [40, 95], "D": [155, 130], "E": [235, 80]},
+    }))  # fmt: skip
+    # from link 1 and from link 3 the first cylinder and the second both turn link 2; it has one driver only
+    (group,) = structure.larger_groups
+    assert [("6/5", "2"), ("8/7", "3")] == [(t.driver.key, t.equivalent.key) for t in group.triangles]
