@@ -52,7 +52,7 @@ def read_off(
             if twin is not None:
                 readings[symbol] = replace(twin, symbol=symbol)
                 continue
-            length, along = _vector(sheet, symbol, drawn.span, instrument)
+            length, along = _vector(sheet, symbol, drawn.tip - drawn.tail, instrument)
             readings[symbol] = Reading(symbol, length, along * per_mm, order, per_mm)
         for link, r in rates.items():
             if link == sheet.scene.frame.name or "/" in link:

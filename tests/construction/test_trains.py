@@ -7,6 +7,8 @@ import re
 import pytest
 
 from graphkin import check, draw
+from graphkin.construction import draft
+from graphkin.scene import mechanism_of
 
 SUN = {"1": {"points": ["A"]}, "2": {"points": ["A", "B"], "length": 50}, "3": {"points": ["B", "P"], "length": 15}}
 AXIS = {"points": {"A": [0, 0]}}
@@ -154,6 +156,17 @@ def test_a_wheel_on_a_carrier_that_is_found_later_has_the_rate_of_willis():
     result = check(FOUND_LATER)
     carrier = result["omega_5"].measured
     assert carrier - 1.5 * (10 - carrier) == pytest.approx(result["omega_6"].measured, rel=1e-9)
+
+
+@pytest.mark.parametrize(("name", "first", "last"), [
+    ("coupled sets, found by trial", "plans", "plan"), ("a rack that is driven", "given on plan", "plan travel"),
+])  # fmt: skip
+def test_the_steps_of_a_plan_are_its_trials_its_lines_and_the_speeds_read_off_it(name, first, last):
+    sheet = draft(mechanism_of(TRAINS[name][0]))
+    for number, plan in enumerate(sheet.trains, 1):
+        steps = [step for step in sheet.steps if step.plan == number]
+        assert (first, last) == (steps[0].reason, steps[-1].reason)
+        assert len(steps) == len(plan.lines) + len(plan.travels) + (plan.trial is not None)
 
 
 def test_speeds_of_a_rack_stand_in_the_table_of_the_plan_in_the_units_of_the_scene():
