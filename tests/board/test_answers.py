@@ -120,6 +120,14 @@ def test_a_pulled_joint_changes_the_lengths_so_that_it_lies_there(final: bool) -
         assert {"links.2.length", "links.3.length"} == set(found["changes"])
 
 
+def test_a_block_of_the_frame_is_pulled_along_its_guide() -> None:
+    text = library_text("slider-crank-offset")
+    found = answer(Shelf(), {"do": "pull", "text": text, "point": "C", "x": 120.0, "y": 90.0, "final": True})
+    assert pytest.approx((120.0, 20.0), abs=0.1) == (found["points"]["C"]["x"], found["points"]["C"]["y"])
+    b = graphkin.solve("slider-crank-offset").motion.position("B")[0] * 1e3
+    assert pytest.approx(abs(120 + 20j - b), abs=0.1) == tomllib.loads(found["text"])["links"]["2"]["length"]
+
+
 def test_a_pulled_point_of_the_frame_moves() -> None:
     found = told("pull", point="D", x=0.42, y=-0.21, final=True)
     assert [0.42, -0.21] == tomllib.loads(found["text"])["frame"]["points"]["D"]
@@ -290,6 +298,13 @@ def test_what_is_built_so_far_shows_its_mobility_and_its_sketch() -> None:
     found = answer(Shelf(), {"do": "show", "text": text})
     assert (False, 1) == (found["ok"], found["freedom"])
     assert {"A": [0.0, 0.0], "B": [20.0, 30.0]} == found["draft"]["points"]
+    assert "F = 3·1 − 2·1 − 0 = 1; nothing drives it yet" == found["mobility"]
+
+
+def test_a_bar_between_two_new_points_names_them_apart() -> None:
+    made = tomllib.loads(built({"what": "bar", "from": [0, 0], "to": [20, 30]}))
+    assert ["A", "B"] == made["links"]["1"]["points"]
+    assert {"A": [0.0, 0.0], "B": [20.0, 30.0]} == made["sketch"]
 
 
 def test_what_is_deleted_takes_along_what_hung_on_it() -> None:

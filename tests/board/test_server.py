@@ -44,6 +44,21 @@ def test_the_page_and_what_it_loads_come_from_this_machine_alone(url: str) -> No
         assert 200 == get(url, urlsplit(url).path + name).status
 
 
+@pytest.mark.parametrize(
+    ("path", "status"),
+    [("{own}", 200), ("{own}board.js", 200), ("{own}no.js", 404), ("/wrong/", 403), ("/", 403)],
+)
+def test_no_answer_may_be_kept_guessed_at_or_shown_elsewhere(url: str, path: str, status: int) -> None:
+    found = get(url, path.format(own=urlsplit(url).path))
+    wanted = {
+        "X-Content-Type-Options": "nosniff", "Cache-Control": "no-store", "Referrer-Policy": "no-referrer",
+        "Cross-Origin-Resource-Policy": "same-origin", "Cross-Origin-Opener-Policy": "same-origin",
+    }  # fmt: skip
+    assert status == found.status
+    assert wanted == {name: found.headers[name] for name in wanted}
+    assert "frame-ancestors 'none'" in found.headers["Content-Security-Policy"]
+
+
 @pytest.mark.parametrize("headers", [
     {"Origin": "http://evil.example"}, {"Host": "evil.example"}, {"Origin": "null"}, {"Host": "127.0.0.1"},
 ])  # fmt: skip

@@ -50,6 +50,8 @@ def test_everyone_has_a_position_of_their_own_and_stands_in_the_table_of_the_cla
     assert ["李华", "1", "", "2"] == rows[1][:4]
     assert "'=1+1" == rows[3][0]  # no spreadsheet runs it
     assert 3 == sum(name[0].isdigit() for name in made.files)
+    heads = re.findall(r'<span lang="en">([^<]*)</span>', made.files["class.html"].decode().partition("<table")[2])
+    assert ["Name", "number", "position", "driver (°)"] == heads[:4]  # of no scheme
 
 
 def test_the_template_of_a_course_is_read_by_the_audit(tmp_path):
@@ -60,6 +62,8 @@ def test_the_template_of_a_course_is_read_by_the_audit(tmp_path):
         line[4] = f"{next(iter(values.exact.values())):.6g}"
     text = "\n".join(",".join(line) for line in lines)
     assert graphkin.audit(SCENE, answers=_file(tmp_path, text, "filled.csv")).ok
+    blanks = re.findall(r'<div><span lang="en">([^<]*)</span></div>', made.files["01-A-1.html"].decode())
+    assert ["Class, number", "Teacher", "Date"] == blanks  # the name is there
 
 
 def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
@@ -78,6 +82,13 @@ def test_no_two_students_have_the_same_paper_where_some_give_a_position_and_no_s
     course = {name: Scheme(name, mechanism_of(SCENE), (), {}, places) for name in ("I", "II")}
     dealt = dealt_out(_file(tmp_path, "name,scheme,position\n" + lines), course)
     assert {("I", "1"), ("I", "2"), ("II", "1"), ("II", "2")} == {(who.scheme, who.place) for who in dealt}
+
+
+def test_of_several_columns_with_a_head_of_names_the_first_is_read(tmp_path):
+    places = {"1": PlaceValues("1", 1.0, {Symbol.parse("v_C"): 1.0})}
+    course = {"": Scheme("", mechanism_of(SCENE), (), {}, places)}
+    dealt = dealt_out(_file(tmp_path, "Name ,学号,student,id\nann,7,Ann Lee,8\nbob\n"), course)
+    assert [("ann", "7"), ("bob", "")] == [(who.name, who.id) for who in dealt]
 
 
 def test_schemes_without_their_data_are_refused_and_groups_are_not(tmp_path):
