@@ -5,10 +5,12 @@ from __future__ import annotations
 import json
 import math
 import re
+from types import SimpleNamespace
 
 import pytest
 
 from graphkin import centres, check, draw, read
+from graphkin.construction.touching import Touch, Touching
 
 FRAME = {"points": {"A": [0, 0], "C": [110, 15]}, "guides": {"g": {"through": [4, 0], "angle": 80}}}
 ECCENTRIC = {"points": ["A", "O"], "length": 22, "discs": {"k": {"centre": "O", "r": 40}}}
@@ -206,3 +208,14 @@ def test_a_link_that_slides_on_another_has_no_part_in_the_path_of_a_pin_in_its_c
         "sketch": {"P": [136, 79]},
     }  # fmt: skip
     assert check(scene).ok
+
+
+def test_two_cams_touch_at_places_with_letters_of_their_own() -> None:
+    cam = SimpleNamespace(by_law=False, bodies=("1", "2"))
+
+    class TwoCams(Touching):
+        def each(self):
+            return iter([(cam, Touch("K", cam.bodies, 0j, 1j, "slides"))] * 2)
+
+    scene = SimpleNamespace(holders={"K": ("3",)}, contact_at={})
+    assert ["K'", "K''"] == [touch.name for touch in TwoCams(scene, 1.0, {}).touches()]

@@ -160,3 +160,19 @@ def test_rates_that_trials_assume_and_find_are_told_with_their_units() -> None:
     assert told[2].endswith("omega_3 = −6.6584 rad/s")
     assert "trial polygon 1: alpha_3 = −250 rad/s² is assumed" in told[3]
     assert told[5].endswith("alpha_3 = −289.26 rad/s²")
+
+
+def test_each_pin_in_a_slot_of_a_crank_begins_with_the_crank_s_own_point_there() -> None:
+    sheet = draft(mechanism_of({
+        "frame": {"points": {"A": [0, 0], "D": [100, 0], "E": [0, 100]}},
+        "links": {
+            "1": {"points": ["A"],
+                  "guides": {"g": {"through": [0, 0], "angle": 0}, "h": {"through": [0, 0], "angle": 90}}},
+            "2": {"points": ["D", "P"], "length": 60}, "3": {"points": ["E", "Q"], "length": 60},
+        },
+        "pins": {"P": {"of": "2", "in": "1.g"}, "Q": {"of": "3", "in": "1.h"}},
+        "driver": {"link": "1", "angle": 20, "omega": 3},
+        "sketch": {"P": [60, 22], "Q": [-20, 60]},
+    }))  # fmt: skip
+    laid = [str(step.symbol) for step in sheet.steps if step.diagram == "velocity" and step.verb == "lay off"]
+    assert ["v_P@1", "v_Q@1"] == laid
