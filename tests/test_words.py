@@ -176,6 +176,18 @@ def test_known_names_are_listed_with_the_comma_of_chinese():
     assert "可用的有：A、B、C" == say(did_you_mean("Q", "ABC"), "zh")
 
 
+@pytest.mark.parametrize(
+    "number, sentence",
+    [(Phrase("clockwise"), "第顺时针页，共 4 页"), ("顺时针", "第顺时针页，共 4 页"), ("3", "第 3 页，共 4 页"),
+     (sign("v", "C"), "第 v_C 页，共 4 页")],
+    ids=["phrase", "name", "number", "symbol"],
+)  # fmt: skip
+def test_chinese_meets_chinese_without_a_space_and_all_else_with_it(number, sentence):
+    phrase = Phrase("page of", number=number, count="4")
+    assert sentence == say(phrase, "zh")
+    assert sentence == str(rich_text(phrase, "zh"))
+
+
 def test_a_list_may_be_as_long_as_a_mechanism_has_names():
     names = [str(number) for number in range(5000)]
     assert ", ".join(names) == say(listed(names))

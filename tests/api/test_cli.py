@@ -9,10 +9,11 @@ import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
+from types import SimpleNamespace
 
 import pytest
 
-from graphkin.cli.output import plain_table, print_table
+from graphkin.cli.output import plain_table, print_table, progress_bar
 from tests import EVERYTHING
 from tests.command import run, start
 
@@ -73,6 +74,29 @@ def test_a_table_in_a_file_is_that_of_a_terminal_wide_enough(monkeypatch):
     monkeypatch.setenv("TERM", "dumb")
     print_table(heads, rows, right=(1,))
     assert shown.getvalue() == plain_table(heads, rows, right=(1,)) + "\n"
+
+
+def test_a_bar_shows_what_is_done_of_all_once_the_work_takes_a_second(monkeypatch, tmp_path):
+    shown, clock = io.StringIO(), [0.0]
+    monkeypatch.setattr(shown, "isatty", lambda: True)
+    monkeypatch.setattr(sys, "stderr", shown)
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr("graphkin.cli.output.time", SimpleNamespace(monotonic=lambda: clock[0]))
+    with pytest.raises(KeyboardInterrupt), progress_bar(True, tmp_path) as count:
+        count(1, 40)
+        assert "" == shown.getvalue()
+        clock[0] = 1.1
+        count(30, 40)
+        raise KeyboardInterrupt
+    assert "30/40" in shown.getvalue()
+    assert f"interrupted; what is done is kept in {tmp_path}" in shown.getvalue().replace("\n", "")
+
+
+@pytest.mark.parametrize("shown", [True, False], ids=["in a file", "asked to be quiet"])
+def test_no_bar_is_shown_where_nobody_looks(shown, monkeypatch):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: not shown)
+    with progress_bar(shown) as count:
+        assert count is None
 
 
 def test_a_row_of_a_table_in_a_file_is_one_line_however_long():
