@@ -177,7 +177,7 @@ def test_known_names_are_listed_with_the_comma_of_chinese():
 
 
 @pytest.mark.parametrize(
-    "number, sentence",
+    ("number", "sentence"),
     [(Phrase("clockwise"), "第顺时针页，共 4 页"), ("顺时针", "第顺时针页，共 4 页"), ("3", "第 3 页，共 4 页"),
      (sign("v", "C"), "第 v_C 页，共 4 页")],
     ids=["phrase", "name", "number", "symbol"],

@@ -82,12 +82,16 @@ def test_a_bar_shows_what_is_done_of_all_once_the_work_takes_a_second(monkeypatc
     monkeypatch.setattr(sys, "stderr", shown)
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setattr("graphkin.cli.output.time", SimpleNamespace(monotonic=lambda: clock[0]))
-    with pytest.raises(KeyboardInterrupt), progress_bar(True, tmp_path) as count:
+
+    def work(count):
         count(1, 40)
         assert "" == shown.getvalue()
         clock[0] = 1.1
         count(30, 40)
         raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt), progress_bar(True, tmp_path) as count:
+        work(count)
     assert "30/40" in shown.getvalue()
     assert f"interrupted; what is done is kept in {tmp_path}" in shown.getvalue().replace("\n", "")
 

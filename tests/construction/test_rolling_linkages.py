@@ -111,3 +111,24 @@ def test_a_rack_starts_at_its_travel_as_at_the_angle_of_its_wheel():
     assert result.ok
     (start,) = (step for step in result.sheet.steps if step.reason == "rolling")
     assert slide["5/4"]["travel"] == pytest.approx(start.mm * result.sheet.scales.length * 1e3)
+
+
+def test_pitch_points_of_two_groups_have_letters_of_their_own():
+    first = five_bar_by_its_middle()
+    other = {**dict(zip("ABCDE", "PQRST", strict=True)), **{name: f"1{name}" for name in "1234"}}
+    second = {
+        key: {other[name]: {**link, "points": [other[p] for p in link["points"]]} for name, link in value.items()}
+        if key == "links" else {other[name]: [x + 500, y] for name, (x, y) in value.items()}
+        for key, value in {**first, **first["frame"]}.items() if key in ("links", "points", "sketch")
+    }  # fmt: skip
+    scene = {
+        "frame": {"points": first["frame"]["points"] | second["points"]},
+        "links": first["links"] | second["links"],
+        "gears": first["gears"] | {"h": {**first["gears"]["g"], "between": ["11", "14"]}},
+        "driver": [first["driver"], {**first["driver"], "link": "12"}],
+        "sketch": first["sketch"] | second["sketch"],
+    }
+    sheet = draft(mechanism_of(scene))
+    marks = {s.point: s.strokes[0].at * sheet.scales.length for s in sheet.steps if s.reason == "pitch point"}
+    # 20 teeth against 40: a third of the 100 mm between the centres
+    assert [pytest.approx(0.1 / 3), pytest.approx(0.5 + 0.1 / 3)] == list(marks.values())
