@@ -348,6 +348,12 @@ def test_a_free_datum_is_told_as_far_as_the_rest_of_the_wish_is_met(task, low, h
     assert (low, high) == pytest.approx((free["from"], free["to"]), rel=1e-8, abs=1e-9)
 
 
+@pytest.mark.parametrize(("language", "said"), [("zh", "机架"), ("both", "frame"), (None, "frame")])
+def test_the_chart_of_the_free_datum_speaks_the_language_of_the_call(language, said):
+    chart = graphkin.design("crank-rocker-swing-32", language=language).figures["choice"]
+    assert f">{said} (mm)<" in chart.content("svg").decode()
+
+
 def test_a_rocker_that_is_the_better_the_smaller_it_is_has_no_best():
     assert graphkin.design("rocker-limits").choice is None
 

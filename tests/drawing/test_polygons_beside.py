@@ -67,3 +67,12 @@ def test_a_value_that_is_drawn_wrong_in_another_position_alone_is_not_written(mo
     assert graphkin.draw("sixbar-420rpm", figures=["velocity"]).files
     with pytest.raises(Disagreement, match="by the drawing"):
         assert graphkin.draw("sixbar-420rpm", figures=["polygons"], beside=[45, 80]).figures
+
+
+def test_further_drivers_stand_where_the_call_puts_them() -> None:
+    svg = [
+        graphkin.draw("loader-cylinder", at={"2": 70, "7/6": travel}, figures=["polygons"], beside=[66, 70])
+        .figures["polygons"].content("svg")
+        for travel in (180, 185)
+    ]  # fmt: skip
+    assert svg[0] != svg[1]
