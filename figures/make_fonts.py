@@ -36,7 +36,7 @@ FAMILY = "Graphkin Serif"
 RANGES = (
     (0x20, 0x7E), (0xA0, 0x17F), (0x370, 0x3FF), (0x400, 0x45F), (0x2010, 0x203E), (0x2070, 0x209C), (0x20AC, 0x20AC),
     (0x2100, 0x214F), (0x2150, 0x215F), (0x2190, 0x21FF), (0x2200, 0x22FF), (0x25A0, 0x25FF),
-)  # fmt: skip
+)
 EPOCH = 3_786_825_600  # the same date in every file
 RAISED = dict(zip("⁰⁴⁵⁶⁷⁸⁹⁻", "0456789−", strict=True))  # of which STIX General has no glyphs, as it has ¹²³
 RAISED_AS = (0.6, 0.0, 0.0, 0.6, 0.0, 270.0)  # its ¹²³: so much smaller and higher than 1, 2, 3
@@ -265,12 +265,12 @@ def write(name: str, style: str, sources: list[tuple[TTFont, set[str]]]) -> None
     made.setupNameTable({
         "familyName": FAMILY, "styleName": style, "fullName": f"{FAMILY} {style}",
         "psName": f"{FAMILY.replace(' ', '')}-{style}", "licenseDescription": "SIL Open Font License 1.1",
-    })  # fmt: skip
+    })
     bold, italic = style == "Bold", style == "Italic"
     made.setupOS2(
         sTypoAscender=880, sTypoDescender=-230, sTypoLineGap=0, usWinAscent=880, usWinDescent=230,
         usWeightClass=700 if bold else 400, fsSelection=0x20 if bold else 0x01 if italic else 0x40,
-    )  # fmt: skip
+    )
     made.setupPost(keepGlyphNames=False, italicAngle=-15 if italic else 0)
     made.setupHead(unitsPerEm=1000, created=EPOCH, modified=EPOCH, macStyle=bold + 2 * italic)
     made.font.recalcTimestamp = False

@@ -68,7 +68,7 @@ __all__ = [
     "CallError", "GraphkinError", "Scene", "SceneError", "Unsolvable", "__version__", "audit", "cam", "centres",
     "centrodes", "check", "convert", "course_design", "design", "draw", "explain", "handout", "open_board", "prepare",
     "problem_set", "read", "scenes", "solve", "speed_accuracy", "stability", "sweep",
-]  # fmt: skip
+]
 
 _PLACES = {
     "api.classroom.audited": "audit",

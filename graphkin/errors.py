@@ -51,7 +51,7 @@ class Problem:
         return {
             "where": str(self.where), "found": str(self.found), "wanted": str(self.wanted),
             "id": said[0] if said else None,
-        }  # fmt: skip
+        }
 
     @property
     def sentence(self) -> Phrase:

@@ -139,7 +139,7 @@ def strokes_between(
     lows, highs : the place of each in the order of the motion, and the way before it on which the output rests
     """
     both = [(place % cycle, rest, side, k) for side, own in enumerate((lows, highs))
-            for k, (place, rest) in enumerate(own)]  # fmt: skip
+            for k, (place, rest) in enumerate(own)]
     both.sort()
     ways, leaves = [0.0, 0.0], dict[int, int]()
     for (place, _, side, k), (following, rest, other, _) in pairwise([*both, both[0]]):
@@ -289,7 +289,7 @@ class Pieces:
         if not near.any():
             return np.zeros(0), np.zeros(0)
         part = replace(self, low=self.low[near], high=self.high[near], coefficients=self.coefficients[near],
-                       doubt=self.doubt[near], seams=self.seams[:0])  # fmt: skip
+                       doubt=self.doubt[near], seams=self.seams[:0])
         return part.zeros(curve), part.extremes(curve)
 
     def extremes(self, curve: int) -> Array:
@@ -339,7 +339,7 @@ class Pieces:
         # between two greatest values lies a least one: where none is found, rounding has parted one place
         short = BESIDE * (high - low)
         parted = [turn for turn, after in pairwise(turns) if turn.sense == after.sense
-                  and not (turn.at_seam or after.at_seam) and after.place - turn.place < short]  # fmt: skip
+                  and not (turn.at_seam or after.at_seam) and after.place - turn.place < short]
         return [turn for turn in turns if turn not in parted]
 
     def _turns_at_seams(
@@ -420,7 +420,7 @@ class Pieces:
         look = (np.abs(coefficients[:, 0]) <= rest + rounding) & (rest > np.maximum(rounding, doubt))
         pieces = zip(self.low[look], self.high[look], coefficients[look], strict=True)
         found = [float((low + high) / 2 + (high - low) / 2 * x)
-                 for low, high, c in pieces for x in _real_roots(c, rounding)]  # fmt: skip
+                 for low, high, c in pieces for x in _real_roots(c, rounding)]
         found += self._crossings(coefficients, FLAT * np.maximum(rounding, doubt), found)
         if len(found) > MOST_ROOTS:
             return np.zeros(0)

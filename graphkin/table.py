@@ -236,7 +236,7 @@ class Table:
         '@x
         """
         made = (replace(c, values=np.array(list(map(no_formula, c.texts())), dtype=object)) if c.is_text else c
-                for c in self.columns)  # fmt: skip
+                for c in self.columns)
         return Table(tuple(made), self.index)
 
     # text
@@ -584,7 +584,7 @@ def parquet_of_csv(path: Path, like: Table, out: IO[bytes]) -> None:
     from pyarrow import csv as csv_file
 
     with csv_file.open_csv(path, convert_options=_arrow_types(like)) as reader, \
-            _parquet(like, reader.schema, out) as writer:  # fmt: skip
+            _parquet(like, reader.schema, out) as writer:
         for batch in reader:
             writer.write_batch(batch)
 

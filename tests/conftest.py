@@ -70,7 +70,7 @@ def _no_builtin_sum_of_floats():
 CHROMIUM_FLAGS = [
     "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
     "--disable-component-update", "--disable-sync",
-]  # fmt: skip
+]
 
 
 def _missing(why: str) -> None:

@@ -45,7 +45,7 @@ def _drawn(name: str, language: str, convention: str) -> dict[str, Drawing]:
 def figures(
     own: Sheet, on_sheet: Sheet, report: Report | None = None, language: str | None = None,
     convention: str | None = None,
-) -> dict[str, Drawing]:  # fmt: skip
+) -> dict[str, Drawing]:
     """The single figures of a construction, and the pages of that for the sheet, with its check."""
     whole = sheet_page(FigurePage.of(on_sheet, "sheet", language, convention), report)
     pages = {"sheet": whole, **{f"sheet-{number}": page for number, page in enumerate(whole.further, 2)}}

@@ -190,7 +190,7 @@ class _Builder:
         self.sketch[point] = [z.real, z.imag]
 
 
-    # -- drivers: each places its links and says what it does
+    # drivers: each places its links and says what it does
 
     def crank(self) -> dict[str, Any]:
         a, z = self.letter(), self.place(40)

@@ -99,4 +99,4 @@ def rack_on_a_rocker() -> Scene:
 
 ROLLING_LINKAGES = (
     wheel_at_its_rim, cylinder_and_wheel, five_bar_by_its_middle, planet_by_a_rod, wheel_on_a_rocker, rack_on_a_rocker,
-)  # fmt: skip
+)

@@ -21,14 +21,14 @@ from tests import command
 ROOT = Path(__file__).parent.parent
 MODULES = ["graphkin", *(m.name for m in pkgutil.walk_packages(graphkin.__path__, "graphkin."))]
 PAGES = {str(page.relative_to(ROOT)): page.read_text(encoding="utf-8")
-         for page in (ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md")))}  # fmt: skip
+         for page in (ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md")))}
 
 
 def blocks(language: str) -> list[tuple[str, str]]:
     """The blocks of a language in all pages, each with its page; what a list indents is moved out."""
     fence = re.compile(rf"(?ms)^( *)```{language}\n(.*?)^ *```")
     return [(page, re.sub(f"(?m)^{indent}", "", block)) for page, text in PAGES.items()
-            for indent, block in fence.findall(text)]  # fmt: skip
+            for indent, block in fence.findall(text)]
 
 
 def commands() -> set[str]:
@@ -95,7 +95,7 @@ def test_every_option_of_a_command_line_is_one_of_its_command():
         strange += [line for word in words if word.startswith("--") and word != "--help" and word not in help_of(name)]
     assert [] == strange
     assert {"draw", "check", "solve", "centres", "audit", "sweep", "handout", "design", "cam", "convert", "explain",
-            "open", "scenes", "study"} == {line.split()[1] for line in called}  # fmt: skip
+            "open", "scenes", "study"} == {line.split()[1] for line in called}
 
 
 @pytest.mark.parametrize("page", PAGES)

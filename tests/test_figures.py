@@ -21,7 +21,7 @@ FIRST = {figure: name for name in reversed(make.GALLERY) for figure in make.GALL
 
 @pytest.mark.parametrize("name", [
     pytest.param(name, marks=pytest.mark.quick) if name in FIRST.values() else name for name in make.GALLERY
-])  # fmt: skip
+])
 def test_a_committed_figure_is_redrawn_byte_by_byte_but_for_how_its_letters_are_packed(name):
     drawn = {file: unpacked(svg) for file, svg in make.redraw(name).items()}
     assert {file: unpacked((FIGURES / name / file).read_bytes()) for file in drawn} == drawn

@@ -36,7 +36,7 @@ def test_what_the_shell_hands_over_open_is_read() -> None:
     handed = subprocess.run(
         [sys.executable, "-c", "from graphkin.files import opened; print(opened('/dev/stdin').read())"],
         input=b"here", capture_output=True, check=True,
-    )  # fmt: skip
+    )
     assert b"b'here'\n" == handed.stdout
 
 

@@ -61,7 +61,7 @@ def test_a_problem_told_by_ids_fills_the_gaps_of_both_and_no_others():
     assert 400 < sum(bool(keys) for _, keys, _ in told)
     wanted = [frozenset().union(*(gaps(ENGLISH[key]) for key in keys)) for _, keys, _ in told]
     assert [] == [(where, keys) for (where, keys, filled), all_ in zip(told, wanted, strict=True)
-                  if keys and filled != all_]  # fmt: skip
+                  if keys and filled != all_]
 
 
 def test_every_phrase_of_a_problem_is_made_somewhere():
@@ -83,9 +83,9 @@ def test_what_the_words_tell_of_keys_is_of_keys_that_there_are():
 
 def test_every_key_has_its_meaning_in_words_or_a_name_that_says_it():
     telling = {"SceneTables.units", "SceneTables.frame", "SceneTables.sheet", "SheetWishes.paper",
-               "SheetWishes.orientation", "SheetWishes.convention", "SheetWishes.language"}  # fmt: skip
+               "SheetWishes.orientation", "SheetWishes.convention", "SheetWishes.language"}
     silent = {f"{table.__name__}.{key_of(key)}" for table in FileTable.__subclasses__() for key in keys_of(table)
-              if not meaning(table, key_of(key)) and table.__name__ != "Design"}  # fmt: skip
+              if not meaning(table, key_of(key)) and table.__name__ != "Design"}
     assert telling == silent
 
 
@@ -98,7 +98,7 @@ def test_every_key_has_its_meaning_in_words_or_a_name_that_says_it():
     ("已有同名文件", FileExistsError(17, "File exists")),
     ("压缩包中没有 'geogebra.xml'", KeyError("There is no item named 'geogebra.xml' in the archive")),
     ("a sentence that no table has", "a sentence that no table has"),
-])  # fmt: skip
+])
 def test_sentences_of_other_programs_are_known_by_their_words(chinese, sentence):
     assert chinese == say(from_others(sentence), "zh")
 
@@ -111,7 +111,7 @@ def test_sentences_of_other_programs_are_known_by_their_words(chinese, sentence)
     ("构件 2, 3：没有任何约束", "links 2, 3: nothing holds it",
      Problem(Phrase("links", links="2, 3"), Phrase("nothing holds it"))),
     ("name：the links of a title", "name: the links of a title", Problem("name", "the links of a title")),
-])  # fmt: skip
+])
 def test_a_problem_is_said_in_each_language_with_what_stands_in_it(chinese, english, problem):
     assert (chinese, english, english) == (problem.text("zh"), problem.text("en"), str(problem))
 
@@ -145,7 +145,7 @@ def test_each_problem_of_a_file_is_said_in_chinese_on_a_line_of_its_own(broken):
         "graphkin: links.2.lenght：没有这个键；是否指“length”？",
         "graphkin: links.1.length：读到 -5，长度为负；长度应为正",
         "graphkin: driver.link：没有构件“9”；可用的有：1、2",
-    ]) == (done.returncode, done.stdout, done.stderr.splitlines())  # fmt: skip
+    ]) == (done.returncode, done.stdout, done.stderr.splitlines())
 
 
 def test_in_both_languages_the_english_lines_stand_first(broken):
@@ -164,7 +164,7 @@ def test_in_both_languages_the_english_lines_stand_first(broken):
     (2, "缺少参数“SCENE”", ("draw",)),
     (2, "没有命令“drw”；是否指 'draw'？", ("drw",)),
     (2, "没有选项 --positionz；是否指 --convention、--positions？", ("sweep", "shaper-scheme-2", "--positionz", "3")),
-])  # fmt: skip
+])
 def test_a_call_is_refused_in_chinese_with_the_same_status(status, said, call):
     done = run(*call, "--lang", "zh")
     assert (status, f"graphkin: {said}\n") == (done.returncode, done.stderr)
@@ -174,7 +174,7 @@ def test_a_call_is_refused_in_chinese_with_the_same_status(status, said, call):
     ("cam-offset-roller", ', by = "cycloidal"', "", r'没有写运动规律；by = "\w+"、.*" 或 "\w+"$'),
     ("disc-on-disc", '"2.w"]', '"1.k"]', "：1.k 和 1.k 是同一构件 1 的轮廓"),
     ("oldham-coupling", "[driver]", '[loads.Q]\non = "2"\nforce = 3\nagainst = "2"\n[driver]', "“2”可以是 2/1 或 2/3"),
-])  # fmt: skip
+])
 def test_names_in_a_refusal_are_joined_in_its_language(name, old, new, said):
     text = library_text(name)
     assert old in text
@@ -197,7 +197,7 @@ def test_names_in_a_refusal_are_joined_in_its_language(name, old, new, said):
     ("names no point; write for example a_B, a_B@3, a_C/B", "没有写点；例如写 a_B、a_B@3、a_C/B", "whitworth",
      {"find": ["a_9"]}),
     ("position 7: the scene has no [positions]", "位置 7：机构文件没有 [positions] 表", "whitworth", {}),
-])  # fmt: skip
+])
 def test_a_refusal_names_its_values_in_its_language(english, chinese, name, tables):
     with pytest.raises(GraphkinError) as refused:
         graphkin.check({**tomllib.loads(library_text(name)), **tables}, at="7")
@@ -223,7 +223,7 @@ def test_a_list_of_pairs_that_is_too_short_is_refused_in_chinese():
      '{"joints": [{"id": "A", "type": "ground"}], "links": []}'),
     ("c：不是 pylinkage 的机构：id：没有给出；请重新保存", "c.json", '{"joints": [{"type": "ground"}], "links": []}'),
     ("c：不是 JSON：第 1 行第 2 列（字符 1）：应为双引号中的键名；请在 pylinkage 中重新保存", "c.json", "{"),
-])  # fmt: skip
+])
 def test_a_file_of_another_program_is_refused_in_chinese(tmp_path, said, name, text):
     (tmp_path / name).write_text(text, encoding="utf-8")
     done = run("convert", str(tmp_path / name), "--lang", "zh")
@@ -253,7 +253,7 @@ def test_a_scene_without_a_driver_is_refused_in_chinese(tmp_path):
         assert (2, [
             "graphkin: 自由度：F = 3*5 - 2*7 = 1，但没有给原动件；自由度为 1 的机构需要同样多的原动件；"
             "请在文件中写 [driver]，用 link、angle 和 omega，或用 slide、travel 和 velocity",
-        ]) == (done.returncode, done.stderr.splitlines())  # fmt: skip
+        ]) == (done.returncode, done.stderr.splitlines())
 
 
 def test_what_cannot_be_solved_is_told_in_chinese_beside_the_results_too(tmp_path):

@@ -33,7 +33,7 @@ def whole(n: int = 40) -> Table:
                 ("", 'a "limit", here', "死点")[k % 3] for k in range(n)]),
         ),
         ("position",),
-    )  # fmt: skip
+    )
 
 
 def csv_with(monkeypatch: pytest.MonkeyPatch, table: Table, pyarrow: bool) -> str:
@@ -61,7 +61,7 @@ def test_any_number_is_written_alike_and_reads_back_the_same(numbers: list[float
     ("number", "text"),
     [(0.0, "0"), (-0.0, "0"), (12.0, "12"), (0.00025, "0.00025"), (1e-6, "0.000001"), (1.5e-7, "1.5e-7"),
      (2e10, "2e+10"), (1 / 3, "0.3333333333333333"), (math.nan, "")],
-)  # fmt: skip
+)
 def test_numbers_are_the_shortest_decimals(number: float, text: str) -> None:
     assert f"x\n{text}\n" == Table((Column("x", np.array([number])),)).csv()
 

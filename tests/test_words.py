@@ -158,7 +158,7 @@ def lists_by_hand(tree: ast.AST) -> list[int]:
     for function in (node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)):
         inner = [*ast.walk(function)]
         kept = {t.id for n in inner if isinstance(n, ast.Assign) and is_joined(n.value)
-                for t in n.targets if isinstance(t, ast.Name)}  # fmt: skip
+                for t in n.targets if isinstance(t, ast.Name)}
         for call in (n for n in inner if isinstance(n, ast.Call)):
             if getattr(call.func, "id", getattr(call.func, "attr", "")) in SENTENCES:
                 values = (*call.args, *(keyword.value for keyword in call.keywords))
@@ -181,7 +181,7 @@ def test_known_names_are_listed_with_the_comma_of_chinese():
     [(Phrase("clockwise"), "第顺时针页，共 4 页"), ("顺时针", "第顺时针页，共 4 页"), ("3", "第 3 页，共 4 页"),
      (sign("v", "C"), "第 v_C 页，共 4 页")],
     ids=["phrase", "name", "number", "symbol"],
-)  # fmt: skip
+)
 def test_chinese_meets_chinese_without_a_space_and_all_else_with_it(number, sentence):
     phrase = Phrase("page of", number=number, count="4")
     assert sentence == say(phrase, "zh")

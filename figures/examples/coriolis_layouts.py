@@ -70,13 +70,13 @@ LAYOUTS = {
         {"1": CRANK, "2": {"points": ["B", "C"], "length": 45}, "3": {"points": ["C"], "on": "4.h"}},
         {"link": "1", "angle": 50, "omega": 1}, guides={"h": {"through": [0, -8], "angle": 0}},
     ),
-}  # fmt: skip
+}
 
 IN_CHINESE = (
     "摆动导杆：滑块在转动的导杆上滑动", "导杆处于极限位置：此瞬时导杆不转动", "曲柄与导杆共线：此瞬时无相对滑动",
     "转动导杆为原动件", "摇块机构：连杆即导路", "摆动油缸：活塞杆自转动的缸体推出", "正弦机构：导路只作平动",
     "曲柄滑块机构：导路固定",
-)  # fmt: skip
+)
 
 # %% [markdown]
 # A row for each, four cells in it.

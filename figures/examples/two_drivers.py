@@ -20,14 +20,14 @@ now = solved["positions"][0]
 # %%
 last = now["links"]["6"]
 by_last = by_crank.replace("driver", {"link": "6", "angle": math.degrees(last["angle"]),
-                                      "omega": last["omega"], "alpha": last["alpha"]})  # fmt: skip
+                                      "omega": last["omega"], "alpha": last["alpha"]})
 by_last = by_last.replace("sketch", {p: now["points"][q]["position"] for p, q in
-                                     {"B": "B@1", "C": "C@2", "E": "E@2"}.items()})  # fmt: skip
+                                     {"B": "B@1", "C": "C@2", "E": "E@2"}.items()})
 driven = graphkin.solve(by_last).data
 
 # %%
 classes = {name: [(group["class"], group["links"]) for group in data["groups"]]
-           for name, data in (("crank", solved), ("last link", driven))}  # fmt: skip
+           for name, data in (("crank", solved), ("last link", driven))}
 print(classes)
 crank_rate = driven["positions"][0]["links"]["1"]["omega"]
 print(f"the crank turns as before: {crank_rate:.6f} rad/s")

@@ -42,7 +42,7 @@ def why(account: Account, equation: Equation, language: str) -> RichText:
     return spaced(word("between sentences", language), told)
 
 
-# -- what is written to repeat it --------------------------------------------------------------------------------------
+# what is written to repeat it
 
 SHARE_A_LINE: Collection[Reason] = ("similar", "division")
 """Reasons of steps that are written on in the line of the step before, where that is one of them."""
@@ -123,7 +123,7 @@ def rule_alone(sheet: Sheet, equation: Equation) -> bool:
     return known and last[0].symbol in sheet.vectors[equation.diagram]
 
 
-# -- why an equation is as it is written -------------------------------------------------------------------------------
+# why an equation is as it is written
 
 
 def reasons(sheet: Sheet, equation: Equation) -> list[Phrase]:
@@ -181,7 +181,7 @@ def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
     earlier = (
         s for s in sheet.steps
         if s.diagram == equation.diagram and s.equation != equation.number and s.reason != "polygon"
-    )  # fmt: skip
+    )
     return next(
         (s.number for s in earlier for v in s.strokes if isinstance(v, Vector) and v.symbol == term.symbol), 0
     )
@@ -242,4 +242,4 @@ def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:
     yield Phrase(
         "coriolis rule" if first == symbol else "coriolis sense", vector=symbol, angle=angles[1],
         slip=slip.symbol, slip_angle=angles[0], link=guide.b, sense=sense_of(rate.value),
-    )  # fmt: skip
+    )

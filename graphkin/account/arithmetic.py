@@ -125,7 +125,7 @@ def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
     return any(set(bar) <= set(body.points) for body in bodies)
 
 
-# -- rates -------------------------------------------------------------------------------------------------------------
+# rates
 
 
 def rate_sum(sheet: Sheet, step: RateStep, units: bool = True) -> str:
@@ -157,7 +157,7 @@ def _divided(sheet: Sheet, step: RateStep) -> tuple[str, str, str] | None:
     tried = [
         (_carried(sheet, diagram, mm, carried, most), arm_written(sheet, bar, arm_mm, most))
         for most in FINER
-    ]  # fmt: skip
+    ]
     size, arm = next((t for t in tried if quotient(*t, min(MOST - 1, carried)) == shown), tried[0])
     if sheet.instrument != EXACT.name:
         return size, arm, shown  # as it was written down: a tie is broken once
@@ -317,7 +317,7 @@ def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -
     tried = [
         (factors, product(*factors, carried=least + most - MOST) if factors else amount(mm * per, most))
         for most in FINER for factors in (factors_of(sheet, rule, most),)
-    ]  # fmt: skip
+    ]
     factors, value = next((t for t in tried if is_quotient(length, t[1], scale)), tried[0])
     middle = f"{substituted(rule, factors)} = " if factors else ""
     shown = f"{printed(value)} {unit}"

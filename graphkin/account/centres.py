@@ -42,7 +42,7 @@ def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], Words
 
 def line_through(
     line: CentreRelation, name: Callable[[LinkPair], Words], normal: Callable[[str], Words]
-) -> RichText:  # fmt: skip
+) -> RichText:
     """A line through a centre, by the centres on it, or as the normal of a pin in a slot."""
     return RichText(*(normal(through) if isinstance(through, str) else name(through) for through in line.through))
 
@@ -151,13 +151,13 @@ def _of_driver(centres: Centres, turning: Turning, driver: Driver) -> tuple[_Rat
     assert its.point is not None
     near, sign = _apart(new.point, its.point), "-" * (turning.omega < 0.0)
     gaps: dict[str, object] = {"link": turning.link, "known": "".join(driver.links), "centre": new.pair,
-                               "common": its.pair, "near": near}  # fmt: skip
+                               "common": its.pair, "near": near}
     if not driver.turns:
         per_mm, speed = amount(centres.sheet.scales.length / units.metres), amount(abs(driver.values[1]) / units.metres)
         rate = _Rate(sign + written.quotient(speed, written.product(near, per_mm), MOST), written.figures(near))
         return rate, Phrase("centre from cylinder", **gaps, rate=printed(rate.size),
                             scale=f"{printed(per_mm)} {units.length}/mm",
-                            speed=units.of("velocity").beside(printed(speed)))  # fmt: skip
+                            speed=units.of("velocity").beside(printed(speed)))
     if common is None:
         return None
     far, relative = _apart(common, its.point), amount(abs(driver.values[1]))
@@ -166,7 +166,7 @@ def _of_driver(centres: Centres, turning: Turning, driver: Driver) -> tuple[_Rat
     same = dot(common - its.point, new.point - its.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
     return rate, Phrase(key, **gaps, known_centre=centres.of(*driver.links).pair, far=far,
-                        rate=printed(rate.written))  # fmt: skip
+                        rate=printed(rate.written))
 
 
 def _of_link(
@@ -179,7 +179,7 @@ def _of_link(
     gaps: dict[str, object] = {
         "link": turning.link, "known": turning.chain[-2], "common": common.pair, "known_centre": its.pair,
         "centre": new.pair,
-    }  # fmt: skip
+    }
     if new.point is None:  # it only translates
         key = "centre slides otherwise" if common.point is None else "centre slides"
         return _Rate("0" if nothing else amount(turning.omega)), Phrase(key, **gaps)
@@ -226,7 +226,7 @@ def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> P
     return Phrase(
         "centre speed", symbol=symbol, link=link, centre=centre.pair, end=end, rate=printed(rate.size), length=length,
         scale=scale, speed=speed,
-    )  # fmt: skip
+    )
 
 
 def _speed(centres: Centres, rate: str, length: str, carried: int) -> tuple[str, str]:
@@ -273,4 +273,4 @@ def _of_sliding(
         "centre sliding", symbol=symbol, link=pinned, guide=guiding, centre=centre.pair, point=PointRef(point),
         rate=first, guide_rate=f"({second})" if second.startswith("−") else second, length=length, scale=scale,
         speed=speed,
-    )  # fmt: skip
+    )

@@ -124,7 +124,7 @@ class InForces(Telling[ForceStep]):
         name = self.name(self.step.acting[0].symbol)
         return Neutral(name, f" = {preload}{stretch} = {printed(pull)} {units.force}")
 
-    # -- sums ----------------------------------------------------------------------------------------------------------
+    # sums
 
     def work_in(self, language: str) -> tuple[RichText, ...]:
         """Its sums, in the languages of a paper."""
@@ -186,7 +186,7 @@ class InForces(Telling[ForceStep]):
             force, distance = self.name(equation.shifted), number(abs(equation.shift) / units.metres, MOST)
             yield Phrase("force line shifted", force=force, distance=distance, unit=units.length)
 
-    # -- polygons ------------------------------------------------------------------------------------------------------
+    # polygons
 
     def _laid(self) -> Iterator[RichText]:
         """``ab = P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each known force of a polygon."""
@@ -225,9 +225,9 @@ class InForces(Telling[ForceStep]):
         return Phrase(
             "force lines meet", line=line, force=name(behind), other_line=other_line, other_force=name(before),
             corner=sign(behind.ends[1]), **chained,
-        )  # fmt: skip
+        )
 
-    # -- the lever -----------------------------------------------------------------------------------------------------
+    # the lever
 
     def _lever_sum(self) -> Neutral:
         """The sum of the moments on a lever in numbers."""
@@ -252,7 +252,7 @@ class InForces(Telling[ForceStep]):
         "inertia": _inertia, "known forces": _laid, "all moments": _balanced,
         **dict.fromkeys(("about pin", "about guide", "about driver", "couple", "balance"), _moments),
         **dict.fromkeys((*CLOSED, "inside"), lambda told: read_off(told.account, told.group, told.step.finds)),
-    }  # fmt: skip
+    }
 
 
 def read_off(account: Account, group: ForceGroup, forces: Iterable[Symbol]) -> list[RichText]:
@@ -271,7 +271,7 @@ def force_scale(sheet: Sheet, group: ForceGroup) -> str:
     return amount(group.per_mm / sheet.scene.units.newtons, 12)
 
 
-# -- stages ------------------------------------------------------------------------------------------------------------
+# stages
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -335,7 +335,7 @@ def caption(account: Account, group: ForceGroup, count: int) -> Phrase:
     )
 
 
-# -- moments in numbers ------------------------------------------------------------------------------------------------
+# moments in numbers
 
 
 Balance: TypeAlias = tuple[tuple[tuple[str, tuple[str, ...]], ...], str, Decimal]
@@ -371,7 +371,7 @@ def _balance(sheet: Sheet, equation: MomentStep, carried: int, of_forces: int) -
     return tuple(terms), arm, total / Decimal(arm) if arm else total
 
 
-# -- the lever ---------------------------------------------------------------------------------------------------------
+# the lever
 
 
 def lever_scale(sheet: Sheet, lever: Lever) -> float:

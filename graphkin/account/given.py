@@ -31,7 +31,7 @@ from graphkin.words.written import as_given, printed
 LEVEL = 1e-9  # of directions and of lengths by the size of a scene: what rounding leaves
 NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points that fall together
 
-# -- drivers -----------------------------------------------------------------------------------------------------------
+# drivers
 
 
 def given_drivers(sheet: Sheet, letters: Notation) -> list[RichText]:
@@ -111,7 +111,7 @@ def slide_index(sheet: Sheet, key: str) -> str:
     return sliding if guiding == sheet.scene.frame.name else sliding + guiding
 
 
-# -- lengths, teeth and the frame --------------------------------------------------------------------------------------
+# lengths, teeth and the frame
 
 
 def given_lengths(scene: Mechanism, letters: Notation) -> list[tuple[RichText, str]]:
@@ -162,7 +162,7 @@ def fixed_guides(scene: Mechanism, letters: Notation) -> list[tuple[RichText, st
         (letters.guide(guide.name, scene.frame.name), place_of(guide.through, scene),
          number(degrees(guide.direction)))
         for guide in scene.frame.guides.values() if guide.name
-    ]  # fmt: skip
+    ]
 
 
 def place_of(z: complex, scene: Mechanism) -> str:
@@ -172,7 +172,7 @@ def place_of(z: complex, scene: Mechanism) -> str:
     return f"({number(x)}, {number(y)})"
 
 
-# -- shapes of links ---------------------------------------------------------------------------------------------------
+# shapes of links
 
 
 def given_shapes(scene: Mechanism, letters: Notation, language: str) -> list[RichText]:
@@ -301,7 +301,7 @@ def _place(z: complex, scene: Mechanism) -> str:
     return f"{place_of(z, scene)} {scene.units.length}"
 
 
-# -- masses, loads and springs -----------------------------------------------------------------------------------------
+# masses, loads and springs
 
 
 def given_loads(sheet: Sheet, letters: Notation) -> list[Phrase]:

@@ -20,7 +20,7 @@ from graphkin.words.written import ROUNDED, amount, on_paper, pointing, printed,
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
     "mechanism": "mechanism", "velocity": "velocity polygon", "acceleration": "acceleration polygon", "force": "forces",
-}  # fmt: skip
+}
 """What each figure is called, as a key of the table of words."""
 
 
@@ -164,7 +164,7 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
         phrase = Phrase(
             "vector is", vector=words, size=printed(product(size, amount(per_mm, 12))), unit=unit.written,
             length=printed(size), angle=pointing(vector.span),
-        )  # fmt: skip
+        )
         said.append(say(phrase, language))
     return said
 

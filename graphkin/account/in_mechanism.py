@@ -71,7 +71,7 @@ class InMechanism(Telling[KindOfStep]):
         """The link from which that angle is measured; None for the x axis."""
         return self.step.base or None
 
-    # -- the points of a link ------------------------------------------------------------------------------------------
+    # the points of a link
 
     def _link_points(self: InMechanism[PlaceStep]) -> Phrase | None:
         """Each new point of a link from its drawn points."""
@@ -132,12 +132,12 @@ class InMechanism(Telling[KindOfStep]):
             return None
         own, laid_off = self.sheet.structure.links[link].points, {
             "point": _named(name), "bar": PointNames((pivot, name), bar=True), "length": on_paper(abs(span))
-        }  # fmt: skip
+        }
         if laid and abs(cmath.phase(own[name] - own[pivot])) < STRAIGHT:
             return Phrase("points at", link=link, **laid_off)
         return Phrase("place polar", pivot=_named(pivot), angle=_degrees(span), **laid_off)
 
-    # -- points that are found -----------------------------------------------------------------------------------------
+    # points that are found
 
     @property
     def side(self: InMechanism[PlaceStep]) -> str | None:
@@ -156,7 +156,7 @@ class InMechanism(Telling[KindOfStep]):
         point, bars = self.step.point, [
             s.b - s.a for one in self.sheet.placing("path") if one.point == self.step.point
             for s in one.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
-        ]  # fmt: skip
+        ]
         centre, at = self.at(self.step.points[0]), self.at(point)
         if centre is None or at is None or not bars:
             return None
@@ -176,7 +176,7 @@ class InMechanism(Telling[KindOfStep]):
         told = Phrase(key, point=point, first=first, second=second, base=step.base, link=step.link)
         yield Phrase("written sliding leg", rule=told) if self.sheet.structure.slides else told
 
-    # -- trial positions -----------------------------------------------------------------------------------------------
+    # trial positions
 
     def _positions(self: InMechanism[TrialPositions]) -> Phrase | None:
         """Trial positions with the measured gaps of each, and the division."""
@@ -200,7 +200,7 @@ class InMechanism(Telling[KindOfStep]):
             told = Phrase(
                 "trial division", told=told, first=before, second=before + 1, parts=part, whole=whole,
                 values=listed(first_values), misses=listed(first_misses),
-            )  # fmt: skip
+            )
             if rest:
                 told = Phrase("trial division again", told=told, value=listed(rest[-1][0]))
         return Phrase("in turn", first=self.plain, second=told)
@@ -217,7 +217,7 @@ class InMechanism(Telling[KindOfStep]):
             rows = [self._row(trial, row) for row in trial.trials]
             if len(trial.moved) > 1:
                 both = ([Neutral(sign(roman(i)), " ", ", ".join(row[k])) for i, row in enumerate(rows, 1)]
-                        for k in (0, 1))  # fmt: skip
+                        for k in (0, 1))
                 values, misses = map(listed, both)
                 parts.append(Phrase("written tried", moved=moved_words, values=values))
                 parts.append(Phrase("written missed", missed=missed, misses=misses))
@@ -282,9 +282,9 @@ class InMechanism(Telling[KindOfStep]):
         values = [  # angles from -180 to 180
             f"{_two_digits(180.0 - (180.0 - math.degrees(v)) % 360.0)}°" if symbol.measure.is_angle
             else f"{_two_digits(self._shown(v))} mm" for v, symbol in zip(row[0], table.moved, strict=True)
-        ]  # fmt: skip
+        ]
         misses = [_two_digits(self._shown(miss, of.angle)) + ("°" if of.angle else " mm")
-                  for miss, of in zip(row[1], table.missed, strict=True)]  # fmt: skip
+                  for miss, of in zip(row[1], table.missed, strict=True)]
         return values, misses
 
     def _shown(self, value: float, angle: bool = False) -> float:
@@ -337,10 +337,10 @@ class InMechanism(Telling[KindOfStep]):
         "frame": ("fixed on paper",), "angle": ("lay off angle from link", "lay off angle from x"),
         "points": _link_points, "whole link": _link_points, "arcs": ("place by arcs {side}",),
         "arc on path": ("crossing {crossing}",), "tangent": ("tangent {side}",), "positions": _positions,
-    }  # fmt: skip
+    }
     lines: ClassVar[Mapping[Reason, Callable[[InMechanism[Any], str], Iterable[Phrase]]]] = {
         "positions": _positions_lines, "special point": _special_lines,
-    }  # fmt: skip
+    }
 
 
 def _along(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
@@ -353,7 +353,7 @@ def _along(p: tuple[str, complex], q: tuple[str, complex], name: str, at: comple
         "place turned", pivot=_named(one), angle=number(abs(turn), 4), sense=sense_of(turn),
         base=PointNames((one, q[0]), bar=True), bar=PointNames((one, name), bar=True), length=on_paper(abs(at - a)),
         point=_named(name),
-    )  # fmt: skip
+    )
 
 
 def _on_line(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
@@ -378,7 +378,7 @@ def _degrees(direction: complex) -> str:
     return true_minus(number(round(degrees(direction), 2) + 0.0))
 
 
-# -- trials in words ---------------------------------------------------------------------------------------------------
+# trials in words
 
 
 def _two_digits(value: float) -> str:

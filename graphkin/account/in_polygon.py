@@ -73,7 +73,7 @@ class InPolygon(Telling[KindOfStep]):
         account = self.account
         return account.end_of(self.step.diagram, refs) if name.islower() else account.letters.point(refs.point)
 
-    # -- the letters between which a step goes -------------------------------------------------------------------------
+    # the letters between which a step goes
 
     @cached_property
     def drawn(self) -> Vector | None:
@@ -144,7 +144,7 @@ class InPolygon(Telling[KindOfStep]):
                 return terms[terms.index(symbol) - 1]
         return there[-1] if there else None
 
-    # -- vectors -------------------------------------------------------------------------------------------------------
+    # vectors
 
     @property
     def length(self: InPolygon[VectorStep]) -> str | None:
@@ -202,11 +202,11 @@ class InPolygon(Telling[KindOfStep]):
         held = {s.held for s in before if s.reason == "seen from"}
         kind = step.symbol.kind[0]
         gives = (s.symbol for s in reversed(before)
-                 if s.reason in ("vector", "pole to end") or (isinstance(s, EndStep) and s.begins))  # fmt: skip
+                 if s.reason in ("vector", "pole to end") or (isinstance(s, EndStep) and s.begins))
         seen = next((
             one for one in gives if one.kind == kind and one.of is not None and one.to is not None
             and one.to.link in held and one.of.point == one.to.point == of.point
-        ), None)  # fmt: skip
+        ), None)
         if seen is None or seen.to is None:
             return None
         against = of.link == seen.to.link
@@ -230,7 +230,7 @@ class InPolygon(Telling[KindOfStep]):
         computed, on_scale = laid_sum(self.sheet, step.diagram, step.size, abs(self.places[1] - self.places[0]))
         return self.account.letters.vector(step.symbol) + f" = {computed}", on_scale
 
-    # -- images --------------------------------------------------------------------------------------------------------
+    # images
 
     @property
     def on_link(self: InPolygon[EndStep]) -> tuple[complex, complex, complex] | None:
@@ -339,7 +339,7 @@ class InPolygon(Telling[KindOfStep]):
             rule = spaced(" =\u00a0", (self.account.letters.vector(part.symbol), letters.size(part.size), value))
             yield rule + ",  " + way
 
-    # -- rates ---------------------------------------------------------------------------------------------------------
+    # rates
 
     @property
     def turning_links(self: InPolygon[RateStep]) -> tuple[str, ...]:
@@ -380,7 +380,7 @@ class InPolygon(Telling[KindOfStep]):
         others = (rate(self.step.kind, name) for name in self.turning_links[:0:-1])
         yield spaced(" = ", (*others, bound(self.account.say(self.step.phrase, languages(language)[0]))))
 
-    # -- trial polygons ------------------------------------------------------------------------------------------------
+    # trial polygons
 
     def _trial(self: InPolygon[RateTrial]) -> Phrase:
         """A trial polygon: its steps, and in the first one its reason."""
@@ -394,7 +394,7 @@ class InPolygon(Telling[KindOfStep]):
         rates = listed([
             Phrase("rate is", symbol=symbol, value=true_minus(number(value, 5)), unit=self._unit(symbol))
             for symbol, value in step.assumed
-        ])  # fmt: skip
+        ])
         told = Phrase("trial lettered", trial=sign(roman(step.trial)), rates=rates, first=first, last=last)
         if step.trial > 1:
             return told
@@ -413,7 +413,7 @@ class InPolygon(Telling[KindOfStep]):
         rates = listed([
             Phrase("rate is", symbol=symbol, value=quotient.value, unit=self._unit(symbol))
             for (symbol, _), quotient in zip(divided.found, quotients, strict=True)
-        ])  # fmt: skip
+        ])
         if len(quotients) > 1:
             parts = listed([quotient.part for quotient in quotients])
             return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=rates)
@@ -429,7 +429,7 @@ class InPolygon(Telling[KindOfStep]):
         closing = listed([
             Phrase("open pair", pair=name) if "/" in name else Phrase("open link", link=name)
             for name in divided.closing
-        ])  # fmt: skip
+        ])
         yield Phrase("written trials", trials=listed(numerals), left_out=closing, open=self._left_open())
         for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
             rates = spaced(", ", (symbol(s) + f" = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed))
@@ -439,7 +439,7 @@ class InPolygon(Telling[KindOfStep]):
         said = Neutral(spaced("; ", (
             bound(symbol(s) + f" = {one.terms} = {one.value} {self._unit(s)}")
             for (s, _), one in zip(divided.found, quotients, strict=True)
-        )))  # fmt: skip
+        )))
         if len(quotients) > 1:
             parts = listed([one.part for one in quotients])
             first, others = sign(roman(1)), listed(numerals[1:])
@@ -482,7 +482,7 @@ class InPolygon(Telling[KindOfStep]):
         "before its turn": ("{nought}", "carry lettered", "carry from"), "similar": _image, "division": _image,
         "rates": lambda told: told.first("ends seen" if told.step.held else "ends in"),
         "polygon": _trial, "open ends": _superposed,
-    }  # fmt: skip
+    }
     arithmetic: ClassVar[Mapping[Reason, Callable[[InPolygon[Any]], Iterable[Words]]]] = {
         **dict.fromkeys((*ROLES, "before its turn"), _laid_sums), "rates": _by_rates_sums, "rate": _rate_sums,
         "plan": lambda told: [rate(told.step.kind, told.step.link) + f" = {plan_sum(told.step)}"],
@@ -492,7 +492,7 @@ class InPolygon(Telling[KindOfStep]):
         "similar": _image_lines, "division": _image_lines,
         "rates": _by_rates_lines, "rate": _rate_lines, "sum of rates": _summed_lines,
         "held still": _held_still_lines, "plan": _plan_lines, "open ends": _superposed_lines,
-    }  # fmt: skip
+    }
 
 
 def alike(rates: Iterable[Rate], turning: Rate) -> list[str]:
@@ -500,7 +500,7 @@ def alike(rates: Iterable[Rate], turning: Rate) -> list[str]:
     return [
         other.link for other in rates if other.same_as == (turning.same_as or turning.link)
         and other.value == turning.value and other.link != turning.link and "/" not in other.link
-    ]  # fmt: skip
+    ]
 
 
 def _turning(value: float, language: str) -> str:

@@ -135,7 +135,7 @@ def _in_units(block: LoopBlock, scene: Mechanism) -> LoopBlock:
     per = np.array([fast if kind == "travel" else 1.0 for kind, _ in block.unknowns])
     rates, second = (tuple((np.array(found) / per).tolist()) for found in (block.rates, block.second_rates))
     return replace(block, matrix=block.matrix * per / fast, velocity=block.velocity / fast,
-                   acceleration=block.acceleration / fast, rates=rates, second_rates=second)  # fmt: skip
+                   acceleration=block.acceleration / fast, rates=rates, second_rates=second)
 
 
 def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
@@ -165,10 +165,10 @@ def _clean(rows: Sequence[Sequence[float]]) -> list[list[float]]:
     return [[0.0 if abs(x) < 1e-14 * most else x for x in row] for row in rows]
 
 
-# -- for terminals and for papers --------------------------------------------------------------------------------------
+# for terminals and for papers
 
 _IN_LATEX = {"θ": r"\theta", "ω": r"\omega", "α": r"\alpha", "−": "-", "·": r"\cdot ", "°": r"^{\circ}",
-             "cos": r"\cos", "sin": r"\sin"}  # fmt: skip
+             "cos": r"\cos", "sin": r"\sin"}
 _LOWERED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
 _SIGNS = str.maketrans({sign: command for sign, command in _IN_LATEX.items() if len(sign) == 1})
 
@@ -179,7 +179,7 @@ def as_latex(line: Words) -> str:
         _symbol_in_latex(part) if not isinstance(part, str)
         else " ".join(_IN_LATEX.get(text) or _word_in_latex(text) for text in part.split(" "))
         for part in stretches(line)
-    )  # fmt: skip
+    )
 
 
 def _word_in_latex(text: str) -> str:
@@ -220,10 +220,10 @@ def matrix_latex(matrix: MatrixEquation) -> str:
     names = r" \\ ".join(map(as_latex, matrix.unknowns))
     right = r" \\ ".join(map(as_latex, matrix.right))
     return " ".join(rf"\begin{{bmatrix}} {part} \end{{bmatrix}}" if part != "=" else "="
-                    for part in (rows, names, "=", right))  # fmt: skip
+                    for part in (rows, names, "=", right))
 
 
-# -- the loops of a position -------------------------------------------------------------------------------------------
+# the loops of a position
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -263,13 +263,13 @@ class LoopText:
                              "value": plain(loop.root.unknown, loop.root.value)}} if loop.root else {}),
             }
             for loop in block.loops
-        ]  # fmt: skip
+        ]
         return {
             "loops": loops, "unknowns": [*map(_plain_name, block.unknowns)],
             "values": [*map(plain, block.unknowns, block.values)], "matrix": in_units.matrix.tolist(),
             "velocity": in_units.velocity.tolist(), "rates": list(in_units.rates),
             "acceleration": in_units.acceleration.tolist(), "second_rates": list(in_units.second_rates),
-        }  # fmt: skip
+        }
 
     @property
     def plain(self) -> str:

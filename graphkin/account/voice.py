@@ -179,7 +179,7 @@ def _links(holders: Mapping[str, tuple[str, ...]], ref: PointRef) -> list[str]:
     return [ref.link] if ref.link else list(holders.get(ref.point, ()))
 
 
-# -- sentences ---------------------------------------------------------------------------------------------------------
+# sentences
 
 
 @dataclass(frozen=True, eq=False, repr=False)

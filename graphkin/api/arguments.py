@@ -65,7 +65,7 @@ def known_words(
     for where, word, known in (
         ("lang", language, known_languages), ("convention", convention, CONVENTIONS),
         ("instrument", instrument, INSTRUMENTS), ("text", text, TEXTS),
-    ):  # fmt: skip
+    ):
         if word is not None:
             wrong += unknown_words(where, [word], known)
     if not formats:

@@ -188,7 +188,7 @@ class CamMade:
             ],
             "drawn": {"pitch": self.drawn.pitch / metres, "profile": self.drawn.profile / metres,
                       "pressure": self.drawn.pressure, "lift": self.drawn.lift / lift, "ok": self.drawn.ok},
-        }  # fmt: skip
+        }
 
     def figure(self, language: str) -> Drawing:
         """The cam by inversion, on a page of its own."""
@@ -305,7 +305,7 @@ class Cams(OfScene, Result):
         yield Phrase(
             "cam disc", link=disc.link, follower=disc.follower, radius=f"{base / metres:.6g}", unit=unit, kind=kind,
             rise=f"{rise[0]:.6g}", rise_unit=rise[1],
-        )  # fmt: skip
+        )
         yield Phrase("cam disc points", link=disc.link)
         if disc.offset is not None:
             yield Phrase("cam disc offset", offset=f"{disc.offset / metres + 0.0:.6g}", unit=unit)

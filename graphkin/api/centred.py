@@ -176,7 +176,7 @@ class Centred(OfScene, Result):
     def _velocity(self, v: SpeedByCentres) -> dict[str, Json]:
         unit = self.mechanism.units.rates.metres if v.symbol.is_vector else 1.0
         by_centres, exact = (None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real) + 0.0
-                             for x in (v.by_centres, v.exact))  # fmt: skip
+                             for x in (v.by_centres, v.exact))
         row: dict[str, Json] = {"by_centres": by_centres, "exact": exact, "chain": list(v.chain), "ok": v.ok}
         if v.ok and v.tolerance > 1.01 * TOLERANCE * v.largest:
             row["tolerance"] = v.tolerance / unit  # worse than everywhere else
@@ -249,7 +249,7 @@ class Centred(OfScene, Result):
     def write(
         self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs",
         motion: bool = False,
-    ) -> list[Path]:  # fmt: skip
+    ) -> list[Path]:
         """Write figures and table as every result does, and with ``motion`` centres-motion.svg, which plays; returns
         the paths.  Raises CallError for an unknown format or a folder that cannot be written."""
         paths = super().write(folder, formats, text)
@@ -317,7 +317,7 @@ def centres(
     return Centred(found, drawn, language, convention, moving).saved(out, formats)
 
 
-# -- centrodes ---------------------------------------------------------------------------------------------------------
+# centrodes
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Centroded(OfScene, Result):

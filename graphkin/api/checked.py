@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 _FORMS = {
     "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",
     "tolerance": ".3g", "direction_error_rad": ".3g", "ok": "", "uncertainty": ".3g",
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -140,7 +140,7 @@ class Checked(OfScene, Result):
         for state in self.sheet.forces[:1]:
             forces = {"forces": ["drawn system" if way == "drawn system" else "moments and polygon"
                                  for way in dict.fromkeys(group.way for group in state.groups)
-                                 if way != "driver"]}  # fmt: skip
+                                 if way != "driver"]}
         if not groups:
             return forces
         ways = ", ".join(dict.fromkeys(groups.values()))
@@ -171,7 +171,7 @@ class Checked(OfScene, Result):
             s: self.centres.velocity(s) for s in symbols if s.kind in ("v", "omega") and not s.at
         }
         found = {"by_centres": {s: abs(v) if s.kind == "v" else v.real + 0.0
-                                for s, v in velocities.items() if v is not None}}  # fmt: skip
+                                for s, v in velocities.items() if v is not None}}
         states = sheet.forces
         for symbol in symbols if states else ():
             balance = replace(symbol, plus=False, at="")
@@ -236,10 +236,10 @@ def settled(made: Checked, hand: Instrument) -> Checked:
     scene = made.sheet.scene
     values = made.sheet.drivers
     drivers = [Phrase("driver at value", driver=d.key, value=scene.unit_of(d).said(values.get(d.key, d.values[0])))
-               for d in scene.drivers]  # fmt: skip
+               for d in scene.drivers]
     wanted = "move the driver off this position" if hand is EXACT else "draw exactly with another seed or"
     raise Unsolvable("dead point", Problem(Phrase("driver of driver", driver=listed(drivers)),
-                                           "so near a dead point nothing is determined", wanted))  # fmt: skip
+                                           "so near a dead point nothing is determined", wanted))
 
 
 def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:

@@ -91,7 +91,7 @@ class Designed(Result):
                 row(what, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
                     360.0)
                 for what, asked, bar in self._directions(task)
-            )  # fmt: skip
+            )
         name = {GuideBarTask: "stroke_5/0", SliderCrankTask: "stroke_3/0"}.get(type(task), "swing_3")
         output = extremes(range_of(structure_of(mechanism_of(self.scene))), Symbol.parse(name))
         if isinstance(task, LimitsTask):
@@ -167,7 +167,7 @@ class Designed(Result):
                  "found": result.found if math.isfinite(result.found) else None, "ok": result.ok}
                 for result in self.confirmed
             ],
-        }  # fmt: skip
+        }
         if self.found.turned:
             made["turned"] = list(self.found.turned)
         if self.found.least is not None:
@@ -175,7 +175,7 @@ class Designed(Result):
         if self.choice is not None:
             free = self.choice
             made["choice"] = {"key": free.key, "from": free.low, "to": free.high, "best": free.best,
-                              "least_transmission_angle_deg": free.least}  # fmt: skip
+                              "least_transmission_angle_deg": free.least}
         return made
 
     @property
@@ -194,7 +194,7 @@ class Designed(Result):
         if free is not None and self.found.least is not None and free.least > self.found.least + 0.005:
             made.append(Phrase("best choice", datum=Phrase(f"datum {free.key}"), low=f"{free.low:.5g}",
                                high=f"{free.high:.5g}", unit=self.given.units.length, angle=f"{free.least:.2f}",
-                               best=f"{free.best:.5g}", here=f"{self.found.least:.2f}"))  # fmt: skip
+                               best=f"{free.best:.5g}", here=f"{self.found.least:.2f}"))
         return made
 
     def sentences(self, language: str) -> list[str]:
@@ -211,7 +211,7 @@ class Designed(Result):
             free = self.choice
             now = getattr(self.given.task, free.key)
             made["choice"] = choice_chart(self.given, free.key, free.at, (free.low, free.high), (now, self.found.least),
-                                          (free.best, free.least), languages(spoken)[0])  # fmt: skip
+                                          (free.best, free.least), languages(spoken)[0])
         return made
 
     @property

@@ -322,7 +322,7 @@ def draw(
     alone = [("driver", "structure", driver), ("beside", "polygons", places)]
     if wishes := [(name, figure) for name, figure, wish in alone if wish and figure not in wanted]:
         raise CallError(*(Problem(name, "is of one figure alone", "ask for this figure", figure=figure)
-                          for name, figure in wishes))  # fmt: skip
+                          for name, figure in wishes))
     asked = drawn_symbols(given, find)
     given = for_paper(given, () if any(figure_kinds()[name].of_all for name in wanted) else asked_here(asked))
     given, values = placed(given, at)

@@ -120,7 +120,7 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
         "units": _units(given), "links": _links(given), "joints": _joints(given), "mobility": [_mobility(given)],
         "drivers": [_driver(given, driver) for driver in given.drivers], "groups": groups, "loads": _loads(given),
         "asked": [Phrase("explained asked for", quantities=listed(find)) if find else all_asked],
-    }  # fmt: skip
+    }
     sentences = tuple((f"explained {about}", phrase) for about, phrases in told.items() for phrase in phrases)
     return Explained(given, sentences, why, language or given.question.sheet.language, exit_code, status)
 

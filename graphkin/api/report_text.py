@@ -230,7 +230,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
         parts = [f"{named}{colon}{word(loop.name, language)}"]
         # a link that its own lengths would let turn may be held back by the links before it
         for key, links in (("turns fully", turning.intersection(loop.turns)),
-                           ("could turn fully", set(loop.turns) - turning)):  # fmt: skip
+                           ("could turn fully", set(loop.turns) - turning)):
             if turned := [link for link in loop.turns if link in links]:
                 parts.append(say(Phrase(key, links=listed(turned)), language))
         lines.append(semicolon.join(parts))

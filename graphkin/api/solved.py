@@ -338,7 +338,7 @@ def solve(
     return solved
 
 
-# -- tables for people -------------------------------------------------------------------------------------------------
+# tables for people
 
 
 Row = tuple[str, Sequence[Sequence[str]]]
@@ -356,7 +356,7 @@ def solution_tables(
     asked: list[Row] = [
         (column.name, (_texts(column.values), [column.unit] * len(column.values)))
         for name in solved.find for column in solved.columns(name)
-    ]  # fmt: skip
+    ]
     heads = [word("quantity", language), "", ""]
     tables: list[Texts] = [(heads, (1,), asked)] if solved.find else _whole(solved, language)
     for k, status in enumerate(motion.status):

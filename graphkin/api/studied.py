@@ -28,7 +28,7 @@ T = TypeVar("T")
 def charts_html(study: Result) -> str:
     """The charts of a study with their titles, for a notebook."""
     return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
-                   for f in study.figures.values())  # fmt: skip
+                   for f in study.figures.values())
 
 
 @dataclass(frozen=True, repr=False, eq=False)

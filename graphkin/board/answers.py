@@ -100,7 +100,7 @@ def _problems(shelf: Shelf, error: GraphkinError, message: object) -> Answer:
     return told
 
 
-# -- the questions --------------------------------------------------------------------------------------------------
+# the questions
 
 
 class Message(BaseModel):
@@ -179,7 +179,7 @@ _NEEDED: Mapping[str, tuple[str | Phrase, Phrase]] = {
     "step": ("piece", Phrase("say what to build")),
     "line": _COMPLETE, "column": _COMPLETE,
     "count": ("variants", Phrase("give a number from 1 to", most=MOST_VARIANTS)),
-}  # fmt: skip
+}
 """What a key of a message is about, and what it needs."""
 
 
@@ -371,5 +371,5 @@ QUESTIONS: Mapping[str, tuple[tuple[str, ...], Callable[[Shelf, Message], Answer
     "watch": ((), lambda shelf, asked: {"changed": shelf.changed(asked.name, asked.mark)}),
     "race": (("text",), _race), "diagrams": (("text",), _diagrams), "export": (("text", "kind"), _export),
     "link": (("text",), lambda _, asked: {"link": scene_link(asked.text)}), "names": ((), _names),
-}  # fmt: skip
+}
 """What the page may ask, by name: what the message needs, and what it is told."""

@@ -179,7 +179,7 @@ def _slider(made: Tables, step: Step) -> OwnTables:
     return {
         f"frame.guides.{guide}": {"through": place, "angle": _round(_number(step, "angle", 0.0))},
         f"links.{_next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **changes,
-    }  # fmt: skip
+    }
 
 
 def _block(made: Tables, step: Step) -> OwnTables:
@@ -255,7 +255,7 @@ def _delete(made: Tables, step: Step) -> OwnTables:
 STEPS: Mapping[str, Callable[[Tables, Step], OwnTables]] = {
     "pivot": _pivot, "fix": _fix, "bar": _bar, "point": _point_on, "slider": _slider, "block": _block,
     "slotted": _slotted, "pin": _pin, "drive": _drive, "delete": _delete,
-}  # fmt: skip
+}
 """What can be built, by name."""
 
 
@@ -266,7 +266,7 @@ def trial_driver(made: Tables) -> OwnTables | None:
     return {"link": next(iter(table_in(made, "links"))), "angle": 0.0, "omega": 1.0}
 
 
-# -- a point pulled ----------------------------------------------------------------------------------------------------
+# a point pulled
 
 
 def movable(scene: Mechanism) -> dict[str, str]:

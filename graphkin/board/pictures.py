@@ -163,7 +163,7 @@ def shown(
 def _answer(
     scene: Mechanism, figures: Mapping[str, str], places: Mapping[str, complex], values: Mapping[str, float],
     scales: Scales, limit: str,
-) -> dict[str, Json]:  # fmt: skip
+) -> dict[str, Json]:
     """The page's picture of a position: figures, places of points (m) and the effect of pulling them, values of the
     drivers (rad, m), scales, and the reason of a limit."""
     metres, pulls = scene.units.metres, movable(scene)
@@ -310,7 +310,7 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
         "mobility": mobility_text(scene, spoken),
         "title": scene.question.title_in(spoken),
         "unit": scene.units.length,
-    }  # fmt: skip
+    }
 
 
 def thumbnail(scene: Mechanism, language: str | None) -> str:

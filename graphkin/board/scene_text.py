@@ -113,7 +113,7 @@ def _index(place: list[Any], part: str, key: str) -> int:
     return index
 
 
-# -- where things stand ---------------------------------------------------------------------------------------------
+# where things stand
 
 _KEY = r"""(?:[A-Za-z0-9_-]+|"[^"]*"|'[^']*')"""
 _HEAD = re.compile(rf"^\s*\[\[?\s*({_KEY}(?:\s*\.\s*{_KEY})*)\s*\]\]?")
@@ -172,7 +172,7 @@ _PLACES: Mapping[str, tuple[str, ...]] = {
     "link": ("links.{name}",), "link of name": ("links.{name}",), "links": ("links.{links}",),
     "point": _POINT, "point of point": _POINT, "status mobility": ("links",),
     "driver of driver": ("driver",), "driver of key and name": ("driver",),
-}  # fmt: skip
+}
 """The keys of a text that a phrase about a link, a point, a driver stands for."""
 
 
@@ -201,7 +201,7 @@ def _first(names: object) -> object:
     return _first(names.gaps["first"]) if isinstance(names, Phrase) and "first" in names.gaps else names
 
 
-# -- what may be written --------------------------------------------------------------------------------------------
+# what may be written
 
 
 def completions(text: str, line: int, column: int) -> list[dict[str, Wording]]:
@@ -256,7 +256,7 @@ def _names(text: str, head: tuple[str, ...], key: str, quoted: bool) -> list[str
     return sorted(names if quoted else {f'"{name}"' for name in names})
 
 
-# -- what a text names, whatever is still missing ------------------------------------------------------------------
+# what a text names, whatever is still missing
 
 
 def table_in(made: object, name: str) -> OwnTables:

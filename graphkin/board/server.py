@@ -35,7 +35,7 @@ FONTS = Path(__file__).parent.parent / "drawing" / "fonts"
 _FILES = {
     "board.js": (STATIC, "text/javascript"), "board.css": (STATIC, "text/css"),
     "regular.ttf": (FONTS, "font/ttf"), "italic.ttf": (FONTS, "font/ttf"), "bold.ttf": (FONTS, "font/ttf"),
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
             "Content-Security-Policy": policy, "X-Content-Type-Options": "nosniff", "Cache-Control": "no-store",
             "Referrer-Policy": "no-referrer", "Cross-Origin-Resource-Policy": "same-origin",
             "Cross-Origin-Opener-Policy": "same-origin",
-        })  # fmt: skip
+        })
         return response
 
     async def talk(socket: WebSocket) -> None:
@@ -141,7 +141,7 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
     routes = [
         Route("/{secret}/", served), WebSocketRoute("/{secret}/talk", talk), Route("/{secret}/{name}", served),
         Route("/{path:path}", served, methods=["GET", "HEAD", "POST", "PUT", "DELETE", "OPTIONS", "PATCH"]),
-    ]  # fmt: skip
+    ]
     return Starlette(routes=routes)
 
 
@@ -163,7 +163,7 @@ def _answered(shelf: Shelf, text: str) -> str:
 
 def serve(
     shelf: Shelf, port: int = 0, ready: Callable[[Address], None] | None = None, language: str = ""
-) -> None:  # fmt: skip
+) -> None:
     """Serve the page until it is interrupted.
 
     Parameters
@@ -203,7 +203,7 @@ async def _run(app: Starlette, listening: socket.socket, ready: Callable[[], Non
     config = uvicorn.Config(
         app, log_level="error", access_log=False, ws="websockets-sansio", ws_max_size=LARGEST_MESSAGE, lifespan="off",
         server_header=False, timeout_graceful_shutdown=1, ws_per_message_deflate=False,
-    )  # fmt: skip
+    )
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: list[socket.socket] | None = None) -> None:
@@ -213,7 +213,7 @@ async def _run(app: Starlette, listening: socket.socket, ready: Callable[[], Non
     await Server(config).serve(sockets=[listening])
 
 
-# -- in a notebook -----------------------------------------------------------------------------------------------------
+# in a notebook
 
 
 def open_board(scene: SceneLike | None = None) -> AnyWidget:

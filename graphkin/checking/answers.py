@@ -31,7 +31,7 @@ _OTHER_COLUMNS: Mapping[Role, set[str]] = {
            "考号", "编号"},
     "equations": {"equations", "vector equations", "方程", "矢量方程"},
     "drawing": {"drawing", "drawings", "作图", "图", "图形"},
-}  # fmt: skip
+}
 
 
 Cell = Printed | tuple[str, Phrase] | None
@@ -111,7 +111,7 @@ def with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
     signed = {
         (who.person, who.variant, who.by, p.symbol)
         for who in people for p in who.values if p.shows_sign and p.way.angle is None and not p.way.lines
-    }  # fmt: skip
+    }
     if not signed:
         return tuple(people)
 

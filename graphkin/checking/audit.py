@@ -107,7 +107,7 @@ def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
         if angle is None or _near(true - angle, room, either):
             continue
         ways = (("slip turned back", math.pi), ("slip mirrored", -2 * true), ("slip mirrored", math.pi - 2 * true),
-                ("slip square", math.pi / 2), ("slip square", -math.pi / 2))  # fmt: skip
+                ("slip square", math.pi / 2), ("slip square", -math.pi / 2))
         key = next((key for key, turn in ways if _near(true + turn - angle, room, either)), "slip direction")
         deviation = math.degrees(math.remainder(angle - true, math.pi if either else math.tau))
         return replace(judged, verdict="wrong", looks_like=Phrase(key, angle=f"{deviation:+.0f}"))
@@ -194,7 +194,7 @@ def _following(
                 yield suspect, weight
 
 
-# -- tables, by their digits -------------------------------------------------------------------------------------------
+# tables, by their digits
 
 Row = tuple[Sequence[Printed], str]
 """What is stated of one position, and how it was found: by "drawing" or by "computation"."""
@@ -205,7 +205,7 @@ Exact = Callable[[int, Printed], Value]
 def judge_table(
     motion: Motion, rows: Sequence[Row], of_turn: Mapping[Symbol, float], names: Sequence[str],
     case: Callable[[int], Evidence],
-) -> list[tuple[Judged, ...]]:  # fmt: skip
+) -> list[tuple[Judged, ...]]:
     """Judge a table by its digits; only wrong values are explained, and of a drawn table some positions are drawn to
     find a pencil's errors.
 

@@ -46,7 +46,7 @@ class SpeedByCentres(Known):
         """This value (SI) in the units of its scene, 0 where it is rounding alone."""
         unit, floor = self.symbol.unit(scene.units), 0.0 if self.ok is None else self.tolerance
         values = [None if v is None else in_unit(unit, complex(v) if self.symbol.is_vector else float(v.real), floor)
-                  for v in (self.by_centres, self.exact)]  # fmt: skip
+                  for v in (self.by_centres, self.exact)]
         assert values[1] is not None
         return replace(self, unit=unit.text, by_centres=values[0], exact=values[1], tolerance=unit.of(self.tolerance))
 
@@ -99,7 +99,7 @@ def must_agree(centres: Centres, motion: Motion) -> None:
     off = {pair: error for pair, error in errors.items() if error and error[0] > max(error[1], ON_PAPER)}
     said = "no paper is written please report this scene"
     problems = [Problem(f"P{''.join(pair)}", "lies off its computed place", said, angle=f"{math.degrees(sine):.3g}")
-                for pair, (sine, _) in off.items()]  # fmt: skip
+                for pair, (sine, _) in off.items()]
     if problems:
         raise Disagreement(*problems)
 

@@ -59,13 +59,13 @@ class JudgedValue(Known):
             symbol, unit.text, unit.of(judged.printed.value), unit.of(judged.exact), judged.deviation, judged.verdict,
             unit.of(judged.bound), "" if judged.looks_like is None else say(judged.looks_like, language),
             judged.follows_from,
-        )  # fmt: skip
+        )
 
     def _words(self) -> tuple[str, ...]:
         return self.verdict, self.looks_like
 
 
-# -- points, and what a class did ------------------------------------------------------------------------------------
+# points, and what a class did
 
 
 Scheme = Mapping[str | Symbol, float]
@@ -138,7 +138,7 @@ def _points_of(who: Answers, judged: Sequence[Judged], scheme: Scheme) -> dict[s
             total += points[part] or 0.0
             most += 0.0 if mark is None else scheme[part]
     return {"points": {k: None if v is None else round(v, 4) for k, v in points.items()},
-            "total": round(total, 4), "of": round(most, 4)}  # fmt: skip
+            "total": round(total, 4), "of": round(most, 4)}
 
 
 def verdicts_of(who: Answers, judged: Sequence[Judged]) -> dict[Symbol, str]:
@@ -185,7 +185,7 @@ def _unread(scene: Mechanism, symbol: Symbol, cell: Cell, language: str) -> Row:
     return {
         "symbol": str(symbol), "written": text, "printed": None, "exact": None, "unit": symbol.unit(scene.units).text,
         "deviation_pct": None, "verdict": verdict, "why": reason,
-    }  # fmt: skip
+    }
 
 
 def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
@@ -194,7 +194,7 @@ def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
         "symbol": str(value.symbol), "written": judged.printed.text, "printed": _plain(value.printed),
         "exact": _plain(value.exact), "unit": value.unit,
         "deviation_pct": None if value.deviation is None else 100 * value.deviation,
-    }  # fmt: skip
+    }
     if value.deviation is None:
         row["why"] = "the exact value is zero"
     row["verdict"] = value.verdict if value.verdict != "not judged" else None

@@ -54,7 +54,7 @@ def stated_arrows(sheet: Sheet, loop: Loop, stated: Mapping[Symbol, complex | fl
         arrow.coefficient * axes[arrow.link] * turned.get(loop.ties[arrow.link], 1.0)
         * (moved.get(arrow.slide, travels[arrow.slide]) if arrow.slide else 1.0)
         for arrow in loop.arrows
-    )  # fmt: skip
+    )
 
 
 def _of_loop(symbol: Symbol) -> Coordinate | None:

@@ -158,7 +158,7 @@ def _vector(sheet: Sheet, symbol: Symbol, span: complex, instrument: Instrument)
     return length, span if kept is None else span * (length / size)
 
 
-# -- positions, measured on the drawn mechanism ------------------------------------------------------------------------
+# positions, measured on the drawn mechanism
 
 
 def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place) -> Measured | None:
@@ -191,7 +191,7 @@ def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place
     joint = (
         joint_between(sheet.structure, symbol.link, symbol.other, symbol)
         if symbol.kind == "gamma" else joint_of_follower(sheet.structure, symbol.link, symbol)
-    )  # fmt: skip
+    )
     if any(link not in sheet.poses for side in (joint.first, joint.second) for link, _ in side):
         return None
     first, second = joint.directions(lambda link, place: sheet.poses[link].place(place / sheet.scales.length))
@@ -229,7 +229,7 @@ def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place)
     return _length(sheet, instrument, spots[0].real if symbol.kind == "x" else spots[0].imag)
 
 
-# -- the whole turn ----------------------------------------------------------------------------------------------------
+# the whole turn
 
 
 def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured | None:

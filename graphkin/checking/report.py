@@ -202,7 +202,7 @@ def _row(
     sheet: Sheet, predicted: Mapping[Symbol, Uncertainty] | None, reading: Reading, exact: Value, whole: float,
     floor: float, rounded: float = 0.0, share: float = EXACT_TOLERANCE, least: float = 0.0, unsure: bool = False,
     by_drivers: bool = False,
-) -> Compared:  # fmt: skip
+) -> Compared:
     """A reading beside the exact value, judged by a size.
 
     Parameters
@@ -327,7 +327,7 @@ def _grain(sheet: Sheet) -> float:
         for name, link in structure.links.items() if name != structure.scene.frame.name
         for p, z in link.points.items() if p in structure.hinges
         for q, w in link.points.items() if q in structure.hinges and p < q and z != w
-    ]  # fmt: skip
+    ]
     far = max((abs(z) for z in sheet.points.values()), default=0.0) * sheet.scales.length
     return GRAIN * far / min(bars, default=math.inf)
 
@@ -399,7 +399,7 @@ def deviation(compared: Compared, units: Units) -> str:
     return f"{amount(100 * compared.relative, 2)} %"
 
 
-# -- readings in the units of files ------------------------------------------------------------------------------------
+# readings in the units of files
 
 
 @dataclass(frozen=True)
@@ -466,7 +466,7 @@ class ReadValue(Known):
             row.symbol, unit.text, row.on_paper, in_unit(unit, measured, row.bound), in_unit(unit, exact, row.floor),
             unit.of(row.error), unit.of(row.tolerance), math.degrees(row.direction_error), row.ok,
             None if row.uncertainty is None else unit.of(row.uncertainty.deviation),
-        )  # fmt: skip
+        )
 
     def _words(self) -> tuple[str, ...]:
         read = "" if self.on_paper is None else f"read from {self.on_paper:.6g} mm on paper"

@@ -110,7 +110,7 @@ class JudgedScan:
                 "turned_deg": math.degrees(line.turned), "ok": line.ok, "said": say(line.said, "en"),
             }
             for line in self.lines
-        ]  # fmt: skip
+        ]
         return {"ok": self.ok, "off": self.off.name if self.off else None, "lines": lines}
 
     def sentences(self, language: str) -> list[str]:
@@ -176,11 +176,11 @@ def _lines(
     vectors = sheet.vectors[diagram]
     largest = max((abs(v.span) for v in vectors.values()), default=0.0)
     known_of = {t.symbol: (t.size_known, t.direction_known)
-                for e in sheet.equations if e.diagram == diagram for side in e.sides for t in side}  # fmt: skip
+                for e in sheet.equations if e.diagram == diagram for side in e.sides for t in side}
     drawn = sorted(vectors.values(), key=lambda v: known_of.get(v.symbol, (False, False)) == (False, False))
     for vector in drawn:
         tail, tip = (next((name for name in places if abs(ends[name] - end) <= SAME * largest), "")
-                     for end in (vector.tail, vector.tip))  # fmt: skip
+                     for end in (vector.tail, vector.tip))
         if tail and tip and abs(vector.span) > SAME * largest:
             known = known_of.get(vector.symbol, (False, False))
             yield ReadLine(str(vector.symbol), vector.span, places[tail], places[tip], known, within * largest)

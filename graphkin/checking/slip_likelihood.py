@@ -268,7 +268,7 @@ Kind = tuple[float, int, list[str]]
 
 def _kinds(
     text: str, places: Sequence[int], digits: NDArray[np.int_], worth: NDArray[np.float64], goal: float, room: float
-) -> Iterator[Kind]:  # fmt: skip
+) -> Iterator[Kind]:
     """Each kind of error: its share, the count of numbers it could come from, and the numbers that differ from the text
     by about ``goal``.
 

@@ -139,7 +139,7 @@ class Evidence:
         """All explanations of a wrong value of a symbol; found once for each."""
         return cache(lambda symbol: Suspects(tuple(_suspects(self, symbol))))
 
-    # -- what follows from somebody's own values
+    # what follows from somebody's own values
 
     @cached_property
     def _stages(self) -> Stages:
@@ -224,7 +224,7 @@ def _assemblies(plan: Plan) -> Iterator[Alteration]:
 OF_TERMS = (
     ("coriolis", "left out", 0.0, 0.1), ("coriolis", "reversed", -1.0, 0.08), ("coriolis", "factor", 0.5, 0.04),
     ("normal", "left out", 0.0, 0.05), ("normal", "reversed", -1.0, 0.04),
-)  # fmt: skip
+)
 """What is done wrong with terms of a role: in words, by what factor they change, and its share."""
 
 
@@ -397,7 +397,7 @@ def _sort(symbol: Symbol) -> str:
     return "arm" if symbol.kind == "arm" else symbol.measure.name
 
 
-# -- somebody's own values ---------------------------------------------------------------------------------------------
+# somebody's own values
 
 
 def _step(sheet: Sheet, symbol: Symbol) -> float:
@@ -469,12 +469,12 @@ def _guide_turns(plan: Plan, of: PointRef, to: PointRef | None) -> Symbol | None
     return Symbol("omega", link=to.link) if to and to.link else None  # a link of a contour, held still
 
 
-# -- slips in forces and gears -----------------------------------------------------------------------------------------
+# slips in forces and gears
 
 OF_MASSES = (
     ("slip inertia force with", 0.15, -1.0, -1.0), ("slip inertia force left out", 0.1, 0.0, 0.0),
     ("slip inertia left out", 0.12, 1.0, 0.0), ("slip arm side", 0.1, 1.0, -1.0),
-)  # fmt: skip
+)
 """What is done wrong with inertia: in words, its share, and by what factors forces and couples change."""
 
 
@@ -489,7 +489,7 @@ def _force_slips(motion: Motion) -> Iterator[Alteration]:
     loading = motion.scene.loading
     masses, springs, (loads, idle), down = loading.masses, loading.springs, _standing(motion), loading.gravity
     weights = tuple(LoadOn(f"weight{mass.link}", mass.link, mass.mass * abs(down), True, mass.at, down / abs(down))
-                    for mass in masses) if down else ()  # fmt: skip
+                    for mass in masses) if down else ()
     right = Loading(0j, masses, (*weights, *loads), loading.balance, springs=springs)
 
     def slip(key: str, of: Wording | None, share: float, **changes: Sequence[object]) -> Alteration:
@@ -526,7 +526,7 @@ def _force_slips(motion: Motion) -> Iterator[Alteration]:
         for key, share, instead in (
             ("slip spring left out", 0.1, ()), ("slip spring reversed", 0.06, (pushing,)),
             ("slip free length", 0.1, (replace(spring, free=0.0),)),
-        ):  # fmt: skip
+        ):
             yield slip(key, spring.name, share * each, springs=_instead(springs, spring, *instead))
     for load in idle:
         yield slip("slip load not here", load.name, 0.15 / len(idle), loads=(*right.loads, load))
@@ -563,7 +563,7 @@ def _standing(motion: Motion) -> tuple[tuple[LoadOn, ...], tuple[LoadOn, ...]]:
     always = replace(
         scene.loading, gravity=0j, loads=tuple(replace(load, phase=None) for load in scene.loading.loads),
         flywheel=None,
-    )  # fmt: skip
+    )
     there = forces_of(replace(motion, structure=replace(motion.structure, scene=replace(scene, loading=always))))
     acting: list[LoadOn] = []
     idle: list[LoadOn] = []

@@ -255,4 +255,4 @@ def advise(
         "advice", symbol=symbol, percent=f"{100 * relative:.2g}", cause=phrase_of(expected.cause),
         share=f"{100 * expected.share:.0f}", figure=Phrase(f"figure {best}"),
         better=f"{100 * relative * gains[best]:.2g}",
-    )  # fmt: skip
+    )

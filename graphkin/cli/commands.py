@@ -35,7 +35,7 @@ _WRONG_CALL = typer.BadParameter.__mro__[1]
 COMMANDS = (
     "scenes", "draw", "check", "solve", "centres", "audit", "sweep", "handout", "design", "cam", "convert", "explain",
     "open", "study",
-)  # fmt: skip
+)
 """The commands in the order of the help."""
 
 

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from graphkin.api.classroom.handouts import Handout
     from graphkin.api.solved import Solved
 
-# -- drawings ----------------------------------------------------------------------------------------------------------
+# drawings
 
 UNCHECKED = {"ok": False, "status": "", "why": "", "readings": []}
 """What a program reads where there is nothing to check."""
@@ -89,7 +89,7 @@ def _tell_check(checked: Checked, language: str, given: Given) -> None:
 @command(
     "scene", "out", "format", "at", "position", "find", "lang of sheets", "convention", "instrument", "seed", "figure",
     "text", "driver", "beside", "json", "quiet",
-)  # fmt: skip
+)
 def draw(given: Given) -> None:
     """Draw the mechanism, the velocity and the acceleration polygon; measure and check them."""
     from graphkin.api.arguments import known_words
@@ -134,7 +134,7 @@ def audit(given: Given) -> None:
 @command(
     "scene", "out of centres", "format", "text", "at", "position", "centrode", "point", "motion", "lang of sheets",
     "convention", "json", "quiet",
-)  # fmt: skip
+)
 def centres(given: Given) -> None:
     """All instant centres, how each was found, and the velocities by centres."""
     from graphkin.api.arguments import known_words
@@ -175,7 +175,7 @@ def design(given: Given) -> None:
             [row.symbol, f"{row.on_paper:.3f}", f"{row.measured:.7g}", f"{row.exact:.7g}", designed.given.units.length,
              "ok" if row.ok else "off"]
             for row in designed.rows
-        ]  # fmt: skip
+        ]
         heads = [word(key, language) for key in ("length found", "on paper", "measured", "exact", "unit")]
         print_table([*heads, ""], rows, right=(1, 2, 3))
         told = [
@@ -201,13 +201,13 @@ def cam(given: Given) -> None:
     finish(given, found)
 
 
-# -- the solver alone --------------------------------------------------------------------------------------------------
+# the solver alone
 
 
 @command(
     "scene", "at", "position", "sweep", "loops", "out of solve", "lang", "convention", "instrument", "find", "json",
     "quiet",
-)  # fmt: skip
+)
 def solve(given: Given) -> None:
     """The analytic solution alone, at one position or over a turn."""
     from graphkin.api.arguments import known_words
@@ -268,7 +268,7 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
 @command(
     "scene", "out", "positions", "set", "designs", "workers", "scheduler", "measured", "differentiate", "integrate",
     "format", "text", "at", "find", "lang", "convention", "json", "quiet",
-)  # fmt: skip
+)
 def sweep(given: Given) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
     from graphkin.drawing.chart import leave_undocumented
@@ -283,7 +283,7 @@ def sweep(given: Given) -> None:
         swept = given.call(
             graphkin.sweep, out=target, designs=_replaced(given.set or ()), designs_file=given.designs,
             progress=progress, workers=None if given.scheduler else processes(given.workers),
-        )  # fmt: skip
+        )
     outcomes = swept.by_design
     wrong = all(outcome.status == "wrong scene" for outcome in outcomes)
     if given.json and not swept.ok:
@@ -328,7 +328,7 @@ def stability(given: Given) -> None:
     finish(given, found, found.write(given.out, given.formats))
 
 
-# -- papers ------------------------------------------------------------------------------------------------------------
+# papers
 
 TEMPLATES = ("papers", "course-design")
 
@@ -337,7 +337,7 @@ TEMPLATES = ("papers", "course-design")
     "scene", "out", "format of handout", "at", "position", "find", "lang of sheets", "convention",
     "positions of handout", "variants", "seed of handout", "rows", "workers of handout", "export", "template",
     "students", "text of handout", "json", "quiet",
-)  # fmt: skip
+)
 def handout(given: Given) -> None:
     """Problem sheet, worked solution with every step, and answer key; a set of them with other numbers; or reports."""
     from graphkin.scene.designs import is_design
@@ -410,7 +410,7 @@ def _problem_set(given: Given) -> None:
         raise typer.Exit(min(failure.exit_code for failure in made.failures))
 
 
-# -- files of scenes ---------------------------------------------------------------------------------------------------
+# files of scenes
 
 
 @command("name", "file", "copy", "schema", "new", "set of new", "lang", "json", "quiet")

@@ -28,4 +28,4 @@ __all__ = [
     "pencil",
     "plan",
     "plan_with_forces",
-]  # fmt: skip
+]

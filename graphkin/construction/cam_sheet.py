@@ -44,7 +44,7 @@ def cam_sheet(cam: LawCam, scale: float) -> Sheet:
     radii = (cam.base * mm, offset) if shifted else (cam.base * mm,)
     circles = (*radii, (cam.base - cam.roller) * mm) if cam.roller else radii
     step("line", "cam step circles" if shifted else "cam step base",
-         *(CompassArc(0j, radius, complex(radius), whole=True) for radius in circles), radii=radii)  # fmt: skip
+         *(CompassArc(0j, radius, complex(radius), whole=True) for radius in circles), radii=radii)
     if pivots:
         step("mark", "cam step pivots", *(Mark(NO_POINT, d.line) for d in divided), radii=(abs(divided[0].line),))
         step("cross", "cam step swings", *(CompassArc(d.line, abs(d.point - d.line), d.point) for d in divided))

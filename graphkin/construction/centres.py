@@ -195,7 +195,7 @@ class Centres:
         middle = complex(min(xs) + max(xs), min(ys) + max(ys)) / 2
         return ProjectiveChart(middle, half or self.scene.size * self.mm)
 
-    # -- velocities by centres -----------------------------------------------------------------------------------------
+    # velocities by centres
 
     @cached_property
     def turning(self) -> dict[str, Turning]:
@@ -254,7 +254,7 @@ class Centres:
 def find_centres(
     of: Mechanism | Structure, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT,
     sheet: Sheet | None = None, near: Centres | None = None,
-) -> Centres:  # fmt: skip
+) -> Centres:
     """Find every centre of every two links on the drawing board.
 
     Parameters
@@ -332,7 +332,7 @@ def measured(links: Centres) -> dict[str, tuple[complex, float, float]]:
     return motions
 
 
-# -- what joints give --------------------------------------------------------------------------------------------------
+# what joints give
 
 
 def _permanent(links: Centres) -> Iterator[Centre]:
@@ -367,7 +367,7 @@ def _normals(links: Centres) -> Iterator[CentreRelation]:
         yield CentreRelation(links.pair(*touch.links), line, ROUNDING, (touch.name,))
 
 
-# -- Kennedy's theorem -------------------------------------------------------------------------------------------------
+# Kennedy's theorem
 
 
 class CircleDiagram:
@@ -525,7 +525,7 @@ def _otherwise(
     return Centre(pair, "found", place, way=way, why=why, error=error)
 
 
-# -- velocities by centres ---------------------------------------------------------------------------------------------
+# velocities by centres
 
 
 CERTAIN = 1e-6  # of the driver's own: a link whose motion may err by more waits for a longer chain that gives it better
@@ -549,7 +549,7 @@ def _chained(centres: Centres) -> dict[str, Turning]:
             # from one link to the next by their common centre
             threes = [(centres.of(t.link, frame), centres.of(name, t.link), centres.of(name, frame)) for t in known]
             chains = [_carried(t, *three, (*t.chain, name)) for t, three in zip(known, threes, strict=True)
-                      if last or any(centre.point is not None for centre in three)]  # fmt: skip
+                      if last or any(centre.point is not None for centre in three)]
             best = min((t for t in chains if t is not None), key=lambda turning: turning.error, default=None)
             if best is not None and (last or best.error <= max(largest, CERTAIN * abs(best.strength))):
                 fresh[name] = best
@@ -585,7 +585,7 @@ def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
         return {b: back}
     # two moving links: the difference of their motions is known
     carried = (_carried(turning, centre, centres.of(other, frame), centres.of(turning.link, frame), turning.chain)
-             for turning, other in ((first, b), (back, a)))  # fmt: skip
+             for turning, other in ((first, b), (back, a)))
     return {turning.link: turning for turning in carried if turning is not None}
 
 

@@ -56,7 +56,7 @@ NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
 FITS = 1e-6
 """Of the size: so well a driven slide must have its travel in an assembly."""
 
-# -- what is to be drawn -----------------------------------------------------------------------------------------------
+# what is to be drawn
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -188,7 +188,7 @@ class Plan:
         return replace(other, made=exact, scales=exact.scales_for(None), chains=polygons.chains, plans=polygons.plans)
 
 
-# -- carried out on a board --------------------------------------------------------------------------------------------
+# carried out on a board
 
 
 def positioned(
@@ -281,7 +281,7 @@ class Stages:
     def __init__(
         self, planned: Plan, scales: Scales, hand: Instrument = EXACT,
         own_values: Callable[[Own], OwnValues] = lambda _: AS_DRAWN,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.planned, self.scales, self.hand, self.own_values = planned, scales, hand, own_values
         self.in_order = tuple(planned.in_order)
         polygons = positioned(planned, scales, hand)
@@ -351,7 +351,7 @@ class Stages:
         return self.others[key]
 
 
-# -- planned -----------------------------------------------------------------------------------------------------------
+# planned
 
 
 def plan(
@@ -378,7 +378,7 @@ def plan(
 def plan_with_forces(
     structure: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol],
     by_name: Sequence[Symbol],
-) -> Plan:  # fmt: skip
+) -> Plan:
     """The plan of a drawing with its forces: of the motion alone, where a load acts on a part of a stroke without a
     whole turn and no force is asked for by name.
 
@@ -397,7 +397,7 @@ def plan_with_forces(
 def _plan(
     structure: Structure, asked: tuple[Symbol, ...], at: Mapping[str, float] | None = None, room: Room | None = None,
     near: Sheet | None = None, without_forces: Unsolvable | None = None,
-) -> Plan:  # fmt: skip
+) -> Plan:
     """The plan for a mechanism without cams."""
     scene = structure.scene
     opened = opened_at_triangles(structure) if structure.larger_groups else structure
@@ -510,7 +510,7 @@ def draft(
     return execute(plan(scene, at, find, room, near), instrument)
 
 
-# -- driven triangles --------------------------------------------------------------------------------------------------
+# driven triangles
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -592,7 +592,7 @@ class Inversion:
         kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
         for diagram, kind, value in zip(DIAGRAMS, kinds, motion, strict=True):
             yield RateStep("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
-                       kind=kind, value=value)  # fmt: skip
+                       kind=kind, value=value)
 
 
 def opened_at_triangles(structure: Structure) -> Structure:

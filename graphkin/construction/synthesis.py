@@ -62,7 +62,7 @@ def pivots(**named: complex) -> list[Mark]:
     return [Mark(PointRef(name), at, fixed=True) for name, at in named.items()]
 
 
-# -- the tasks ---------------------------------------------------------------------------------------------------------
+# the tasks
 
 
 def construct(task: DesignTask, scale: float = 1.0, instrument: Instrument = EXACT) -> Sheet:
@@ -115,7 +115,7 @@ def _(task: CrankRockerTask, paper: TaskBoard) -> None:
     swing = math.radians(task.swing)
     paper.step("lay off", "design swing", *fan("given", D, first, second), *pivots(D=D),
                *points(C1=first, C2=second), angle(D, second - D, first - D, swing, "ψ"), angles=(swing,),
-               mm=arm)  # fmt: skip
+               mm=arm)
     frame = paper.mm(task.frame)
     if _theta(task.K) == 0.0:  # crank and rod lie in the line C1C2 in both limit positions
         reach = paper.instrument.compass(frame)
@@ -139,7 +139,7 @@ def _(task: LimitsTask, paper: TaskBoard) -> None:
     A, D, arm = paper.plot(task.A), paper.plot(task.D), paper.mm(task.rocker)
     first, second = (paper.lay_off_angle(D, direction(angle), arm) for angle in task.angles)
     paper.step("lay off", "design limit positions", *fan("given", D, first, second), *pivots(A=A, D=D),
-               *points(C1=first, C2=second), angles=tuple(map(math.radians, task.angles)), mm=arm)  # fmt: skip
+               *points(C1=first, C2=second), angles=tuple(map(math.radians, task.angles)), mm=arm)
     _crank_from_limits(paper, A, first, second, CD=(first, D), AD=(A, D))
 
 
@@ -157,7 +157,7 @@ def _locus(paper: TaskBoard, first: complex, second: complex, above: int, K: flo
     turn = legs if (tilt > 0) == (above > 0) else legs[::-1]
     paper.step("cross", "design centre", angle(left, *turn, abs(tilt)),
                *fan("construction", left, centre, right), Ray(midway, square, centre), *points(O=centre),
-               CompassArc(centre, radius, first, whole=True), angles=(tilt, theta))  # fmt: skip
+               CompassArc(centre, radius, first, whole=True), angles=(tilt, theta))
     return centre, radius
 
 
@@ -174,11 +174,11 @@ def _crank_from_limits(
     theta = math.atan2(abs(cross(*ends)), dot(*ends))
     shown = [angle(A, *ends, theta, "θ")] if theta > SEEN else []
     paper.step("carry over", "design halve", *shown, *fan("limit", A, far, near), *arcs(A, reach, on_far),
-               points=(f"C{i}", f"C{j}"))  # fmt: skip
+               points=(f"C{i}", f"C{j}"))
     out, back = paper.instrument.point(A + crank * unit(far - A)), paper.instrument.point(A - crank * unit(near - A))
     paper.step("cross", "design crank circle", CompassArc(A, crank, out, whole=True),
                *points(**{f"B{i}": out, f"B{j}": back}), *lines("limit", A, back),
-               *lines("mechanism", A, out, far))  # fmt: skip
+               *lines("mechanism", A, out, far))
     paper.measure(AB=(A, out), BC=(out, far), **others)
 
 
@@ -198,24 +198,24 @@ def _(task: GuideBarTask, paper: TaskBoard) -> None:
     far = abs(A - C)
     paper.step("lay off", "design bar limits",
                *(Ray(C, bar, C + 1.15 * far * bar) for bar in (left, right)),
-               angle(C, far * right, far * left, theta, "θ"), angles=(half,))  # fmt: skip
+               angle(C, far * right, far * left, theta, "θ"), angles=(half,))
     paper.step("cross", "design feet", *lines("mechanism", A, foot), *lines("limit", A, other),
-               *points(B1=foot, B2=other), CompassArc(A, abs(foot - A), foot, whole=True))  # fmt: skip
+               *points(B1=foot, B2=other), CompassArc(A, abs(foot - A), foot, whole=True))
     length = hand.length(reach)
     first = paper.meet("D1", C, left, C - length, hand.direction(1j))
     second = paper.meet("D2", C, right, C + length, hand.direction(1j))
     top = hand.point(C + 1j * abs(first - C))
     paper.step("cross", "design bar ends", Bar(C - length, first), Bar(C + length, second),
                *points(D1=first, D2=second), *lines("mechanism", C, first), *lines("limit", C, second),
-               mm=reach)  # fmt: skip
+               mm=reach)
     chord = paper.meet("chord", first, unit(second - first), C, 1j)
     level = hand.point((top + chord) / 2)
     rod = hand.compass(paper.mm(task.rod_length))
     paper.step("line", "design sagitta", *arcs(C, abs(first - C), first, top, second),
-               Bar(first, second), Ray(level - length, 1 + 0j, level + length + rod))  # fmt: skip
+               Bar(first, second), Ray(level - length, 1 + 0j, level + length + rod))
     E = paper.cut("E", level, 1 + 0j, first, rod)[0]
     paper.step("cross", "design ram", *arcs(first, rod, E), *points(E1=E), *lines("mechanism", first, E),
-               mm=paper.mm(task.rod_length))  # fmt: skip
+               mm=paper.mm(task.rod_length))
     paper.measure(AB=(A, foot), AC=(A, C), CD=(C, first), ram=(C, level))
 
 
@@ -230,7 +230,7 @@ def _(task: BarPositionsTask, paper: TaskBoard) -> None:
     (B, C), *_ = bars
     if task.A is None or task.D is None:
         A, D = (_circle_centre(paper, name, [of + i for i in "123"], on, pivots)
-                for name, of, on in zip("AD", "BC", zip(*bars, strict=True), strict=True))  # fmt: skip
+                for name, of, on in zip("AD", "BC", zip(*bars, strict=True), strict=True))
         _chain(paper, "CD", A=A, B=B, C=C, D=D)
         return
     A, D = paper.plot(task.A), paper.plot(task.D)
@@ -250,7 +250,7 @@ def _(task: BarPositionsTask, paper: TaskBoard) -> None:
 def _circle_centre(
     paper: TaskBoard, name: str, of: Sequence[str], on: Sequence[complex],
     marked: Callable[..., list[Mark]],
-) -> complex:  # fmt: skip
+) -> complex:
     """The centre of the circle through three points named ``of``: the crossing of the perpendicular bisectors of two
     chords."""
     # the two longest sides give the best crossing
@@ -261,7 +261,7 @@ def _circle_centre(
     at = paper.meet(name, p, d, q, e)
     paper.step("cross", "design bisectors", Bar(on[i], on[j]), Bar(on[k], on[m]), Ray(p, d, at), Ray(q, e, at),
                *arcs(at, abs(on[0] - at), *on), *marked(**{name: at}), point=name,
-               points=(of[i], of[j], of[k], of[m]))  # fmt: skip
+               points=(of[i], of[j], of[k], of[m]))
     return at
 
 

@@ -70,7 +70,7 @@ class TaskStep(PlaceStep):
         sizes, names = [f"{abs(end):.{decimals}f}" for end in ends], ("across", "upward")
         signed = (f"−{size}" if end < 0.0 else size for size, end in zip(sizes, ends, strict=True))
         return {**dict(zip(names, signed, strict=True)), **{f"{n}.size": z for n, z in zip(names, sizes, strict=True)},
-                "unit": f"{per:.{decimals}f}", **dict(zip(("crank", "rocker"), written, strict=True))}  # fmt: skip
+                "unit": f"{per:.{decimals}f}", **dict(zip(("crank", "rocker"), written, strict=True))}
 
 
 def length_letters(name: str) -> Words:
@@ -101,7 +101,7 @@ class TaskBoard(Board):
         return Sheet(
             NO_MECHANISM, analyse(NO_MECHANISM), self.instrument.name, Scales(self.scale, 1.0, 1.0), points,
             tuple(self.steps),
-        )  # fmt: skip
+        )
 
     def mm(self, length: float) -> float:
         """A length of the task on paper."""

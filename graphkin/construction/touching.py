@@ -83,7 +83,7 @@ class Touching:
         """The contact of two discs, which parts their line of centres (mm) as r1 : r2 with the signs of the radii; or
         of a disc and a face, at the radius from the centre square to the face."""
         centres = {link: (centre, self.place(link, centre))
-                   for link, centre in zip(pair.round_links, pair.centres, strict=True)}  # fmt: skip
+                   for link, centre in zip(pair.round_links, pair.centres, strict=True)}
         first, *second = (place for _, place in centres.values())
         if pair.flat:
             guide = self.scene.by_name[pair.face].guides[pair.guide]
@@ -156,7 +156,7 @@ class Touching:
                 at = station(pair, pair.sense * phase(pose.axis))
                 point, contact = (pose.origin + pose.axis * z * self.mm for z in (at.point, at.contact))
                 found.append(CamOnPaper(pair, self.profile(pair), point, contact, pose.axis * at.normal,
-                                        pair.roller * self.mm))  # fmt: skip
+                                        pair.roller * self.mm))
         return tuple(found)
 
     def profile(self, cam: LawCam) -> tuple[complex, ...]:
@@ -197,7 +197,7 @@ class Touching:
         return spots + [centre + radius * side for centre, radius in circles for side in (1, 1j, -1, -1j)]
 
 
-# -- the outlines of cams ----------------------------------------------------------------------------------------------
+# the outlines of cams
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -272,7 +272,7 @@ def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
         contact = point - cam.roller * normal
     centre = None if centre is None else centre * back
     return CamStation(degree, lift.lift, line * back, base * back, point * back, centre, normal * back, contact * back,
-                      way * back)  # fmt: skip
+                      way * back)
 
 
 @lru_cache(maxsize=64)

@@ -44,7 +44,7 @@ Turned = tuple[str, str, float]
 """Two links and the given rate of the first from the second (rad/s, rad/s2): 0 where one slides on the other."""
 
 
-# -- lines of centres --------------------------------------------------------------------------------------------------
+# lines of centres
 
 
 @dataclass(frozen=True)
@@ -171,7 +171,7 @@ def _line(
     return CentreLine(tuple(members), (*axes, *spots), start.name, bool(fixed or start.name in links[ground].points))
 
 
-# -- a plan as drawn ---------------------------------------------------------------------------------------------------
+# a plan as drawn
 
 
 @dataclass
@@ -243,7 +243,7 @@ class TrainPlan:
             plan._go_on(hand)
         # what two links that slide on each other or that a driver turns leave open, on the rate scale
         plan.gaps += [(plan.rates[a] - plan.rates[b] - value) / self.turning for a, b, value in self.turns
-                      if a in plan.rates and b in plan.rates and (a, b) not in plan.followed]  # fmt: skip
+                      if a in plan.rates and b in plan.rates and (a, b) not in plan.followed]
         return plan
 
     def _go_on(self, hand: Instrument) -> None:
@@ -296,7 +296,7 @@ class TrainPlan:
         self.lines[i, link] = RateStep(
             "read", "given on plan" if given else "plan", self.order, (Bar(low, high, link),), kind=self.rate,
             link=link, points=by, mm=abs(foot), per_mm=self.turning, value=rate,
-        )  # fmt: skip
+        )
         return True
 
     def _slides(self, hand: Instrument, i: int, mesh: PlacedGear) -> bool:
@@ -318,7 +318,7 @@ class TrainPlan:
         run = on - at - lean
         read = hand.read_signed(run)
         self.travels[mesh.slide] = RateStep("read", "plan travel", self.order, pairs=(mesh.slide,), mm=abs(read),
-                                            per_mm=self.speed, value=mesh.sense * read * self.speed)  # fmt: skip
+                                            per_mm=self.speed, value=mesh.sense * read * self.speed)
         return True
 
     def trials(self, names: Sequence[str]) -> list[dict[str, float]]:
@@ -349,7 +349,7 @@ class TrainPlan:
                 return names
             # of these one place is known
             free = [link for i, line in enumerate(self.on) for link in line.links if link not in plan.rates
-                    and any((i, s.name) in plan.velocities for s in line.spots_of(link))]  # fmt: skip
+                    and any((i, s.name) in plan.velocities for s in line.spots_of(link))]
             for assumed in dict.fromkeys(free):
                 if self._closes([*names, assumed], wanted):
                     return [*names, assumed]
@@ -398,12 +398,12 @@ def _scaled(plan: TrainPlan, rough: TrainPlan, units: float) -> TrainPlan:
     return replace(plan, length=length, speed=speed, turning=max(fits, tall) if wide else 1.0)
 
 
-# -- the trains of a mechanism -----------------------------------------------------------------------------------------
+# the trains of a mechanism
 
 def rolled(
     structure: Structure, drawn: list[TrainPlan], order: Order, wanted: Coordinate, rates: Mapping[str, float],
     travel: Callable[[str], float | None], turns: list[Turned], hand: Instrument,
-) -> tuple[float, float, list[Step]]:  # fmt: skip
+) -> tuple[float, float, list[Step]]:
     """A rate (rad/s, rad/s2) or the speed of a slide (m/s, m/s2) on the plan that leads to it, the length read for it
     (mm), and the steps of a new plan.  Wheels whose motion needs other results first get a plan of their own, at scales
     that suit it, in which the rates known by then are laid off.

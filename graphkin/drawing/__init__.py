@@ -8,4 +8,4 @@ from graphkin.drawing.write.svg import svg_bytes
 __all__ = [
     "Arc", "Box", "Circle", "Drawing", "Group", "Line", "Polygon", "Polyline", "Primitive", "Run", "Stroke", "Text",
     "save", "svg_bytes",
-]  # fmt: skip
+]

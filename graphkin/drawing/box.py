@@ -50,7 +50,7 @@ class Box(NamedTuple):  # a page has thousands
         return (
             complex(self.left, self.top), complex(self.right, self.top), complex(self.right, self.bottom),
             complex(self.left, self.bottom),
-        )  # fmt: skip
+        )
 
     def moved(self, by: complex) -> Box:
         left, top, right, bottom = self
@@ -66,7 +66,7 @@ class Box(NamedTuple):  # a page has thousands
         return Box(
             min(self.left, other.left), min(self.top, other.top), max(self.right, other.right),
             max(self.bottom, other.bottom),
-        )  # fmt: skip
+        )
 
     def overlaps(self, other: Box) -> bool:
         """Whether the two share an area; touching edges do not count."""
@@ -106,7 +106,7 @@ class Box(NamedTuple):  # a page has thousands
         for rate, room in (
             (-step.real, start.real - self.left), (step.real, self.right - start.real),
             (-step.imag, start.imag - self.top), (step.imag, self.bottom - start.imag),
-        ):  # fmt: skip
+        ):
             if rate == 0.0:
                 if room < 0.0:
                     return None

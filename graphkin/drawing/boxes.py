@@ -62,7 +62,7 @@ BARE = Block(Piece(), 0.0)
 def prose(
     lines: Iterable[Words], width: float, size: float = SIZE, *, bold: bool = False, line: float = 0.0,
     classes: tuple[str, ...] = (), step: int | None = None,
-) -> Block:  # fmt: skip
+) -> Block:
     """Text in paragraphs of one line or more, ``line`` mm from line to line."""
     height = line or LEADING * size
     rows = [runs for text in lines for runs in wrapped(text, size, width, bold=bold)]
@@ -78,7 +78,7 @@ def line(text: Words, width: float, size: float = SIZE) -> Block:
 
 
 def numeral(number: int, width: float, size: float = SIZE, *, bold: bool = False, step: int | None = None,
-            classes: tuple[str, ...] = ()) -> Block:  # fmt: skip
+            classes: tuple[str, ...] = ()) -> Block:
     """A number at the left of numbered content, which begins after a width."""
     line = LEADING * size
     at, runs = complex(width - 2.5, BASE * line), plain(str(number), size, bold=bold)
@@ -152,7 +152,7 @@ def framed(block: Block) -> Block:
 def table(
     heads: Sequence[Sequence[Words]], rows: Sequence[Sequence[Words]], widths: Sequence[float], *, size: float = SIZE,
     line: float = 0.0, layer: str = "labels",
-) -> Block:  # fmt: skip
+) -> Block:
     """A table: lines of heads (one a language) over a rule, rows of cells, a thin rule below; the first column begins
     at the left, the others end at the right.  Text wider than its column is set smaller; a column that does not
     hold it even so is as much wider as others can do with less."""
@@ -164,7 +164,7 @@ def table(
     for n, words in enumerate(heads):
         small = min(_fitting(text, size - 0.1, edges[k + 1] - edges[k] - 1.2) for k, text in enumerate(words))
         drawn += [_cell(rich(text, small), edges, k, y) for k, text in enumerate(words)
-                  if text and not (n and text == heads[0][k])]  # fmt: skip
+                  if text and not (n and text == heads[0][k])]
         y += 0.75 * line
     rule = y - 0.42 * line
     drawn.append(Line(complex(edges[0], rule), complex(edges[-1], rule), strokes.OUTLINE))
@@ -224,7 +224,7 @@ def foot(scale: Words, width: float, language: str, note: Words = "") -> Block:
 def page(
     head: Block, body: Block, low: Block, *, title: str, said: Words, language: str, metadata: Mapping[str, object],
     margin: float = MARGIN, height: float = 0.0,
-) -> Drawing:  # fmt: skip
+) -> Drawing:
     """Heading, body and foot on a page of their own width and height, or of the height of its paper, the foot at its
     end.
 
@@ -251,7 +251,7 @@ def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
 def worked_page(
     names: Iterable[str], given: Words, drawn: Sequence[Block], sheet: Sheet, results: Block,
     notes: Iterable[Wording], scale: Words, *, title: str, said: Words, language: str, metadata: Mapping[str, object],
-) -> Drawing:  # fmt: skip
+) -> Drawing:
     """The page of a worked task, of the width `WORKED` inside: the given data, its drawings, its numbered steps in each
     language, the results, notes, and the foot.
 
@@ -264,13 +264,13 @@ def worked_page(
     told = [
         column(*(numbered(step.number, account.say(step.phrase, each), WORKED, STEP, step=step.number)
                  for step in sheet.steps)) for each in every
-    ]  # fmt: skip
+    ]
     lines = [line.with_words(in_sentence) for note in notes for line in in_all(note, language)]
     return page(
         heading(own, given, WORKED), column(*drawn, *told, results, prose(lines, WORKED, STEP, classes=TOLD), gap=3.0),
         foot(scale, WORKED, language), said=said, language=language, metadata=metadata, margin=12.0,
         title=f"{' / '.join(own)}: {word(title, every[0])}",
-    )  # fmt: skip
+    )
 
 
 def spoken(account: Account, phrases: Iterable[Phrase], language: str) -> str:
@@ -355,7 +355,7 @@ class FigurePage:
     def drawing(
         self, below: Words, body: Block, scale: Words | None, *, title: str, said: Words, note: Words = "",
         metadata: Mapping[str, object] | None = None, height: float = 0.0,
-    ) -> Drawing:  # fmt: skip
+    ) -> Drawing:
         """The page with the titles of the scene.
 
         Parameters
@@ -370,4 +370,4 @@ class FigurePage:
             heading(titles(self.sheet, self.language), below, self.width), body, low,
             title=figure_title(self.sheet, title, self.language), said=said, language=self.language,
             metadata=facts(self.sheet, self.name) | dict(metadata or {}), height=height,
-        )  # fmt: skip
+        )

@@ -57,7 +57,7 @@ _DASHES: tuple[tuple[float, ...], ...] = (), (3.0, 1.2), (0.9, 0.9), (4.0, 1.0, 
 SOLID_AND_DASHED = tuple(Stroke(width, dash) for width in (0.45, 0.25) for dash in _DASHES)
 _SIGNS: dict[Shape, str] = {
     "circle": "o", "disc": "o", "up": "^", "down": "v", "square": "s", "diamond": "D", "cross": "x",
-}  # fmt: skip
+}
 _SMALLER = {"up": 0.9, "down": 0.9, "diamond": 0.8, "square": 0.9}  # of the side, to look as large as a disc
 
 # The look of a chart, and everything of the user's settings of matplotlib that could change a stroke or a letter.
@@ -223,7 +223,7 @@ def add_words(figure: Figure, *things: Text | Line) -> None:
                 run.x, run.y, run.text, family=_faces(run.text), size=run.size * POINTS_PER_MM,
                 style="italic" if run.italic else "normal", weight="bold" if run.bold else "normal", color=thing.colour,
                 ha="left", va="baseline", parse_math=False, gid=thing.id if thing.id and k == 0 else None, **placed,
-            )  # fmt: skip
+            )
 
 
 def add_legend(figure: Figure, at: complex, entries: Sequence[tuple[Look, str]]) -> None:
@@ -237,7 +237,7 @@ def add_legend(figure: Figure, at: complex, entries: Sequence[tuple[Look, str]])
         loc="center left", bbox_to_anchor=(at.real / width, 1 - at.imag / height), ncols=len(entries), frameon=False,
         borderpad=0.0, borderaxespad=0.0, handlelength=8.0 / TITLE, handletextpad=0.5, columnspacing=2.0,
         prop={"family": family, "size": TITLE * POINTS_PER_MM},
-    )  # fmt: skip
+    )
     legend.set_zorder(IN_FRONT)
 
 
@@ -254,7 +254,7 @@ def marker(shape: Shape) -> Look:
         "markersize": MARKER * _SMALLER.get(shape, 1.0) * POINTS_PER_MM,
         "markerfacecolor": "#ffffff" if shape == "circle" else "#000000", "markeredgewidth": 0.25 * POINTS_PER_MM,
         "clip_on": False, "snap": False,
-    }  # fmt: skip
+    }
 
 
 def count_steps(axis: Axis, step: float | None = None, most: int = 6) -> None:
@@ -295,7 +295,7 @@ def count_powers(axes: Axes, which: Literal["x", "y"], low: float, high: float, 
 def add_labels(
     axes: Axes, labels: Sequence[tuple[Words, ArrayLike]], sizes: Sequence[float] = (NUMBER,),
     toward: Sequence[tuple[float, ...]] = (),
-) -> None:  # fmt: skip
+) -> None:
     """Words at points or stretches of the curves, in the panel and clear of its strokes and of each other.
 
     Parameters
@@ -369,7 +369,7 @@ def _in_the_way(axes: Axes) -> Obstacles:
     return Obstacles(tuple(solid), tuple(ground), tuple(areas))
 
 
-# -- matplotlib with our settings and faces ----------------------------------------------------------------------------
+# matplotlib with our settings and faces
 
 
 @contextmanager

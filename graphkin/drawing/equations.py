@@ -163,7 +163,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Notation) -> RichText | No
     found = bound(rule_sum(sheet, only.size, equation.diagram))  # the product of what is written
     if not found:
         laid_off = (s.mm for s in sheet.steps
-                    if isinstance(s, VectorStep) and s.verb == "lay off" and s.symbol == only.symbol)  # fmt: skip
+                    if isinstance(s, VectorStep) and s.verb == "lay off" and s.symbol == only.symbol)
         # what is given is not what a hand has made of it
         value = next(laid_off, abs(vector.span)) * scale_of(sheet, equation.diagram)
         found = bound(f"{number(value, MOST)} {unit_of(sheet, equation.diagram).written}")
@@ -230,7 +230,7 @@ def _lines(cells: list[_Cell], width: float, gap: float) -> list[list[_Cell]]:
 def _set(
     line: list[_Cell], heads: tuple[tuple[Run, ...], ...], lead: float, gap: float, letters: Notation, size: float,
     top: float,
-) -> Block:  # fmt: skip
+) -> Block:
     rows = rows_of(letters.convention)
     stack = [[c.over for c in line], [c.runs for c in line], [c.size for c in line], [c.direction for c in line]]
     lines = max((c.underlines for c in line), default=0)

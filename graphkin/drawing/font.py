@@ -135,11 +135,11 @@ _FILES = (
     "SourceHanSerif-Regular.ttc", "simsun.ttc", "Songti.ttc", "NotoSansCJK-Regular.ttc", "NotoSansCJKsc-Regular.otf",
     "NotoSansSC-Regular.otf", "SourceHanSansSC-Regular.otf", "msyh.ttc", "PingFang.ttc", "uming.ttc", "wqy-zenhei.ttc",
     "wqy-microhei.ttc", "DroidSansFallbackFull.ttf", "DroidSansFallback.ttf",
-)  # fmt: skip
+)
 _FOLDERS = (
     "/usr/share/fonts", "/usr/local/share/fonts", "~/.local/share/fonts", "~/.fonts", "/System/Library/Fonts",
     "/Library/Fonts", "~/Library/Fonts", "C:/Windows/Fonts", "/system/fonts",
-)  # fmt: skip
+)
 EPS = 1.0  # thousandths of the size by which an outline may be moved as it becomes quadratic
 
 

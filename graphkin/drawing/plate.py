@@ -48,16 +48,16 @@ class Plate:
     def name(
         self, runs: tuple[Run, ...], mark: Mark, id: str = "", *, colour: str = strokes.BLACK, rank: int = 0,
         toward: tuple[float, ...] = (), step: int | None = None, between: Words = "",
-    ) -> None:  # fmt: skip
+    ) -> None:
         """A name of a point, or of the line between two; as `Label.of`."""
         self.labels.append(Label.of(runs, mapped(mark, on_page), id, colour=colour, rank=rank, toward=toward,
-                                    step=step, between=between))  # fmt: skip
+                                    step=step, between=between))
 
     def arrow(
         self, layer: str, id: str, tail: complex, tip: complex, symbol: RichText, size: float = 3.0, *,
         kind: ArrowKind = RESULTANT, colour: str = strokes.BLACK, classes: tuple[str, ...] = (),
         step: int | None = None, rank: int = 0, between: Words = "",
-    ) -> None:  # fmt: skip
+    ) -> None:
         """A vector with its symbol."""
         self.put(layer, *arrow(on_page(tail), on_page(tip), kind, colour), id=id, classes=classes, step=step)
         name = rich(symbol, size)
@@ -67,7 +67,7 @@ class Plate:
 def centred(
     content: Box, width: float, height: float, draw: Callable[[Box], Piece],
     name: Callable[[Piece, Box], Piece] = with_labels,
-) -> Block:  # fmt: skip
+) -> Block:
     """A panel with a figure in its middle.
 
     Parameters

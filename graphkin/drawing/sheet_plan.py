@@ -94,7 +94,7 @@ def with_less_mechanism(plan: SheetPlan, sheet: Sheet) -> Iterator[SheetPlan]:
     for share in (0.5, 1.0) if spare > 0 else ():
         up = share * spare
         yield replace(plan, mechanism=panel._replace(bottom=panel.bottom - up),
-                      equations=equations._replace(top=equations.top - up))  # fmt: skip
+                      equations=equations._replace(top=equations.top - up))
 
 
 def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[SheetPlan]:
@@ -103,7 +103,7 @@ def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[Sh
     if plan.equations is None or velocity.left != acceleration.left:
         return
     spare = [max(0.0, panel.height - max(LEAST_POLYGON, high))
-             for panel, high in zip((velocity, acceleration), heights, strict=True)]  # fmt: skip
+             for panel, high in zip((velocity, acceleration), heights, strict=True)]
     for chosen in ((0,), (1,), (0, 1)):
         less = [spare[i] if i in chosen else 0.0 for i in (0, 1)]
         if not all(less[i] for i in chosen) or added_up(less) < LEAST_BESIDE:
@@ -113,7 +113,7 @@ def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[Sh
             plan, velocity=velocity._replace(bottom=velocity.bottom - less[0]),
             acceleration=acceleration._replace(top=acceleration.top - less[0], bottom=bottom),
             beside=acceleration._replace(top=bottom + GUTTER),
-        )  # fmt: skip
+        )
 
 
 def _plans(scene: Mechanism) -> Iterator[SheetPlan]:
@@ -197,5 +197,5 @@ def _landscape(width: float, height: float, cost: float, wished: bool) -> Iterat
             low = Box(page.left, bottom + GUTTER + CAPTION, page.right, block.top - GUTTER)
             one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
             plan = replace(plan, equations=low._replace(left=one + GUTTER, right=two), given=low._replace(right=one),
-                           readings=low._replace(left=two + GUTTER))  # fmt: skip
+                           readings=low._replace(left=two + GUTTER))
         yield plan

@@ -55,7 +55,7 @@ def tied(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
             Group((part,), classes=("leader",), step=after.step)
             if isinstance(part, Line) and isinstance(after, Text) and "label" in after.classes else part
             for part, after in zip(held, (*held[1:], None), strict=False)
-        )  # fmt: skip
+        )
         return thing._replace(children=inside)
 
     return map_tree(children, change)

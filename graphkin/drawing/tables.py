@@ -57,7 +57,7 @@ def readings_table(
     drawn = row(*(
         _column(sheet, rows[k : k + per_column], letters, language, width, row_height)
         for k in range(0, len(rows), per_column)
-    ), gap=GUTTER)  # fmt: skip
+    ), gap=GUTTER)
     return drawn.moved(complex(area.left, area.top)).layers.get("answers", ()), len(rows)
 
 
@@ -99,7 +99,7 @@ def _column(
     sheet: Sheet, rows: Sequence[TableRow], letters: Notation, language: str, width: float, line: float
 ) -> Block:
     heads = [[word(head, each) for head in ("quantity", "on paper", "measured", "exact", "difference")]
-             for each in languages(language)]  # fmt: skip
+             for each in languages(language)]
     cells = [_texts(row, sheet.scene.units, letters, language) for row in rows]
     return table(heads, cells, [width * share for share in _SHARES], size=2.4, line=line, layer="answers")
 

@@ -201,7 +201,7 @@ def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, b
             x = max(
                 _hang(runs, atom.sub, x + _GAP_SUB * size, y + drop * size, level, base),
                 _hang(runs, atom.sup, max(x, reach) + _GAP_SUPER * size, y - _RISE * size, level, base), x,
-            )  # fmt: skip
+            )
     flush()
     return runs, x
 
@@ -277,7 +277,7 @@ def run_box(run: Run) -> Box:
     return Box(
         run.x - before * run.size, run.y - ascent * run.size,
         run.x + width(run.text, run.size, run.italic, run.bold) + after * run.size, run.y + descent * run.size,
-    )  # fmt: skip
+    )
 
 
 @lru_cache(maxsize=4096)
@@ -290,7 +290,7 @@ def _reach(text: str, style: Style) -> tuple[float, float, float, float]:
     return (
         max(0, -first.box[0]) / EM, max(ASCENT, *(g.box[3] / EM for g in found)),
         max(0, last.box[2] - last.advance) / EM, max(DESCENT, *(-g.box[1] / EM for g in found)),
-    )  # fmt: skip
+    )
 
 
 @lru_cache(maxsize=8192)

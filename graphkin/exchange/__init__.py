@@ -20,7 +20,7 @@ READ = (".linkage2", ".pyslvs", ".json", ".ggb", ".txt", ".csv", ".tsv", ".url")
 """Endings of files that are read; a shared link of PMKS+ may stand instead of a file."""
 WRITTEN: Mapping[str, Callable[[Bodies], str]] = {
     ".linkage2": write_linkage2, ".pyslvs": write_pyslvs, ".json": write_pylinkage
-}  # fmt: skip
+}
 """Writers by the ending of the file's name."""
 
 

@@ -159,7 +159,7 @@ class Bodies:
         """These bodies with pins in slots instead of blocks of a single pin, and with two points of its body on every
         line on which bodies slide: for programs that know no other slides, and only one of each point."""
         made = Bodies(self.title, dict(self.places), {n: list(points) for n, points in self.bodies.items()}, [],
-                      dict(self.drives), self.unit, self.left, self.lost)  # fmt: skip
+                      dict(self.drives), self.unit, self.left, self.lost)
         guides, driven = {s.on for s in self.slides}, {body for body, point in self.drives if point}
         for slide in self.slides:
             block = slide.body

@@ -100,7 +100,7 @@ def _closed(a: list[str], b: list[str], c: list[str]) -> bool:
     return all(len(points) == 1 for points in shared) and len(set().union(*shared)) == 3
 
 
-# -- GeoGebra ----------------------------------------------------------------------------------------------------------
+# GeoGebra
 
 
 def read_geogebra(data: bytes, title: str) -> Bodies:
@@ -195,7 +195,7 @@ def _place(element: ElementTree.Element) -> complex:
     return complex(float(given.get("x", 0)) / z, float(given.get("y", 0)) / z)
 
 
-# -- linkages of pylinkage ---------------------------------------------------------------------------------------------
+# linkages of pylinkage
 
 
 def construct_linkage(bodies: Bodies, joints: Sequence[Tables]) -> None:

@@ -68,7 +68,7 @@ def _letter(number: int) -> str:
     return chr(65 + letter) + (str(turn) if turn else "")
 
 
-# -- PMKS and PMKS+ ----------------------------------------------------------------------------------------------------
+# PMKS and PMKS+
 
 
 def is_address(text: str) -> bool:
@@ -221,7 +221,7 @@ def _block(made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links
         made.drive(block, rate, point)
 
 
-# -- pyslvs ------------------------------------------------------------------------------------------------------------
+# pyslvs
 
 
 def read_pyslvs(text: str, title: str) -> Bodies:

@@ -26,7 +26,7 @@ RPM = 15.0
 """Where a motor of Linkage says no speed."""
 
 
-# -- Linkage -----------------------------------------------------------------------------------------------------------
+# Linkage
 
 
 def read_linkage2(text: str, title: str) -> Bodies:
@@ -65,7 +65,7 @@ def read_linkage2(text: str, title: str) -> Bodies:
     made.lost += [Phrase("lost ratio", kind=ratio.get("type", "gears")) for ratio in ratios]
     tags = ("fasten", "fastenlink", "fastenconnector")
     fastened = (node for node in (*nodes.values(), *elements)
-                if any(map(node.get, tags)) or node.find("fastenconnector") is not None)  # fmt: skip
+                if any(map(node.get, tags)) or node.find("fastenconnector") is not None)
     made.lost += [Phrase("lost fastening", name=node.get("name") or node.get("id")) for node in fastened]
     for key, node in nodes.items():
         if node.get("slider") == "true" and key in made.names:
@@ -136,7 +136,7 @@ def write_linkage2(bodies: Bodies) -> str:
         else:
             motors[pivot] = rate * 60 / math.tau
     on_line = {s.point: [p for p in bodies.bodies[s.on] if p != s.point and _on_line(bodies.places[p], s)]
-               for s in bodies.slides}  # fmt: skip
+               for s in bodies.slides}
     scale = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}[bodies.unit]
     for point, place in bodies.places.items():
         here = {"id": ids[point], "name": point, "layer": "4"}
@@ -163,7 +163,7 @@ def _on_line(place: complex, slide: BodySlide) -> bool:
     return abs(from_line.imag) <= 1e-9 * max(1.0, abs(from_line))
 
 
-# -- pylinkage ---------------------------------------------------------------------------------------------------------
+# pylinkage
 
 
 def read_pylinkage(text: str, title: str) -> Bodies:
@@ -259,7 +259,7 @@ def write_pylinkage(bodies: Bodies) -> str:
         elif name in driven and pivot is not None:
             crank = next(bodies.places[p] - bodies.places[pivot] for p in points if p != pivot)
             link |= {"type": "driver", "motor_joint": pivot, "angular_velocity": number(driven[name]),
-                     "initial_angle": cmath.phase(crank)}  # fmt: skip
+                     "initial_angle": cmath.phase(crank)}
         links.append(link)
     data = {"name": bodies.title, "joints": joints, "links": links, "ground": "ground"}
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"

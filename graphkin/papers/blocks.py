@@ -170,7 +170,7 @@ def said_each(language: str, keys: Sequence[str]) -> tuple[Said, ...]:
 def table_of(
     language: str, rows: Iterable[Mapping[str, Words]], keys: Sequence[str], bold: Collection[int] = (),
     roomy: bool = False,
-) -> TableBlock:  # fmt: skip
+) -> TableBlock:
     """Rows of cells by the keys of their heads as a table of some of these columns; a missing cell is empty.  Names,
     units and senses are aligned to the left, numbers to the right, cells to write in to the middle."""
     left = ("quantity", "unit") if roomy else ("quantity", "unit", "sense")

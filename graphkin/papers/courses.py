@@ -232,11 +232,11 @@ def class_table(scene: Mechanism, rows: Sequence[Placed], asked: Sequence[Symbol
         (student.name, student.id, student.scheme, student.place, values.driver,
          *(v for s in asked for v in (values.read.get(s), values.exact.get(s))))
         for student, values in rows
-    ]  # fmt: skip
+    ]
     return Table.of(heads, lines, ("", "", "", "", ".9g", *[".9g"] * (2 * len(asked))))
 
 
-# -- the report of a student, and the values of a class ----------------------------------------------------------------
+# the report of a student, and the values of a class
 
 
 def on_paper(drawing: Drawing, paper: Paper, caption: Said = ()) -> Picture | Plate:
@@ -257,7 +257,7 @@ def plate(svg: bytes, size: tuple[float, float], paper: Paper, words: str, capti
 def course_report(
     lesson: Lesson, student: Student, scheme: Scheme, stands: float, data: tuple[tuple[str, ...], ...],
     asked: Sequence[Symbol], figures: Mapping[str, Figures],
-) -> Document:  # fmt: skip
+) -> Document:
     """The report of one student.
 
     Parameters
@@ -287,12 +287,12 @@ def course_report(
                           "tolerance"),
             Paragraph(said("course comparison words", language), small=True),
         ))
-    )  # fmt: skip
+    )
     blocks += _headed("course loops", figures["loops"], language)
     places = tuple(scheme.places.values())
     bold = frozenset(i for i, place in enumerate(places) if place.name == student.place)
     first, *others = _value_tables(lesson, (said("course place head", language),), [(p.name,) for p in places],
-                                   places, asked, driver.written, bold)  # fmt: skip
+                                   places, asked, driver.written, bold)
     blocks.append(Together((Heading(said("course all positions", language)), first)))
     blocks += [*others, Paragraph(said("course all words", language), small=True)]
     blocks += _headed("course diagrams", figures["diagrams"], language)
@@ -304,7 +304,7 @@ def class_document(lesson: Lesson, rows: Sequence[Placed], asked: Sequence[Symbo
     """The values of a whole class in one table; letters, units and paper are the lesson's."""
     language = lesson.language
     heads = {"name": "name of student", "id": "course id head", "scheme": "course scheme head",
-             "place": "course place head"}  # fmt: skip
+             "place": "course place head"}
     shown = [name for name in heads if name == "name" or any(getattr(student, name) for student, _ in rows)]
     cells = [tuple(getattr(student, name) or "–" for name in shown) for student, _ in rows]
     keys = said_each(language, [heads[name] for name in shown])
@@ -324,7 +324,7 @@ def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
     yield Heading(said("course design", language), 1)
     yield Heading(scene_title(lesson), 2)
     known = (("student", "name", student.name), ("id", "id", student.id), ("scheme", "scheme", student.scheme),
-             ("position", "position", student.place))  # fmt: skip
+             ("position", "position", student.place))
     for key, gap, value in known:
         if value:
             yield Paragraph(said(f"course {key}", language, **{gap: value}))
@@ -380,7 +380,7 @@ def _lower(block: Block) -> Block:
 def _value_tables(
     lesson: Lesson, heads: tuple[Said, ...], cells: Sequence[tuple[str, ...]], places: Sequence[PlaceValues],
     asked: Sequence[Symbol], unit: str, bold: frozenset[int] = frozenset(),
-) -> list[TableBlock]:  # fmt: skip
+) -> list[TableBlock]:
     """A row for each position after its names; columns without room in a table are in a further one."""
     language = lesson.language
     driver = said("course driver head", language, unit=unit)
@@ -392,7 +392,7 @@ def _value_tables(
             (*named, number(place.driver, DIGITS),
              *(number(place.read[s], DIGITS) if s in place.read else "–" for s in part))
             for named, place in zip(cells, places, strict=True)
-        )  # fmt: skip
+        )
         align = "l" * len(heads) + "r" * (1 + len(part))
         tables.append(TableBlock((*heads, driver, *columns), rows, align, bold))
     return tables

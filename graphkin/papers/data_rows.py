@@ -45,7 +45,7 @@ _LETTERS = {"rpm": "n", "omega": "omega ω w", "angle": "phi theta φ θ ϕ"}
 """How tables call the speed, the rate and the angle of a driver."""
 
 
-# -- a row of data -----------------------------------------------------------------------------------------------------
+# a row of data
 
 
 def value_of(text: str, known: Mapping[str, float]) -> float:
@@ -175,7 +175,7 @@ def _bare(name: str) -> str:
     return re.sub(r"^[lL]_?(?=[A-Z])", "", name)
 
 
-# -- what a file calls by short names ----------------------------------------------------------------------------------
+# what a file calls by short names
 
 Setter = Callable[[float], list[Setting]]
 """From the value of a short name to the keys of the scene file with their values."""

@@ -96,7 +96,7 @@ def problem(lesson: Lesson) -> Document:
         {"quantity": lesson.letters.vector(s), "unit": lesson.unit(s),
          "on paper": "" if s.is_vector or s.measure.is_length else "–"}
         for s in lesson.questions
-    ]  # fmt: skip
+    ]
     blank = table_of(language, asked, ("quantity", "on paper", "value", "unit", "sense"), roomy=True)
     both = _space(lesson, bare, pictures.POLYGONS, paper) if wide and len(moving) == len(pictures.POLYGONS) else None
     before, after = _polygon_pages(lesson, bare, paper, both)
@@ -204,7 +204,7 @@ def scene_title(lesson: Lesson) -> Said:
     return both if len(names) > 1 else once(names[0], lesson.language)
 
 
-# -- what is given -----------------------------------------------------------------------------------------------------
+# what is given
 
 
 def task(lesson: Lesson) -> Iterator[Paragraph]:
@@ -221,7 +221,7 @@ def coincident_points(lesson: Lesson) -> Iterator[Paragraph]:
     points = dict.fromkeys(
         Phrase("coincident point", point=ref, link=link, place=PointNames((ref.point,)))
         for ref in ends if (link := ref.link or lesson.letters.blocks.get(ref.point))
-    )  # fmt: skip
+    )
     if points:
         yield Paragraph(lesson.sentence(joined("list comma of two", points)))
 
@@ -239,7 +239,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     yield from _clauses(lesson, "links given", shapes)
     for cam in scene.whole.cams:
         laws = ((each, Phrase("given cam", link=cam.link, law=Neutral(cam_given(scene.whole, cam, each))))
-                for each in languages(language))  # fmt: skip
+                for each in languages(language))
         yield Paragraph(tuple((each, whole_sentence(rich_text(law, each), each)) for each, law in laws))
         for point in scene.by_name[cam.link].points:
             if point not in scene.whole.by_name[cam.link].points:
@@ -327,7 +327,7 @@ def labelled(key: str, text: Words, language: str) -> Words:
     return word(key, language) + word("colon", language) + text + word("full stop", language)
 
 
-# -- the answer key ---------------------------------------------------------------------------------------------------
+# the answer key
 
 
 @dataclass(frozen=True)
@@ -363,7 +363,7 @@ def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
             exact=lesson.in_unit(symbol, size),
             tolerance=lesson.in_unit(symbol, COVERAGE * spread.deviation) if spread is not None and bounded else None,
             direction=round(degrees(complex(row.exact)), 3) + 0.0 if symbol.is_vector and size > 0.0 else None,
-        ))  # fmt: skip
+        ))
     return tuple(rows)
 
 
@@ -381,7 +381,7 @@ def result_cells(lesson: Lesson) -> Iterator[dict[str, Words]]:
             "measured": unsigned(row, printed(read)), "exact": unsigned(row, printed(right)), "value": number(size, 5),
             "course difference": f"{100 * abs(float(read) / float(right) - 1.0):.2f}" if float(right) else "–",
             "tolerance": tolerance, "accept": accept, "unit": line.unit, "sense": way(row, lesson.language),
-        }  # fmt: skip
+        }
 
 
 def accepted(value: float, tolerance: float, least: float) -> tuple[str, str]:
@@ -409,7 +409,7 @@ def answer_key(lesson: Lesson) -> Document:
     words = said(
         "key words", language, points=f"{tools.line_width / 2:g}", ruler=f"{tools.ruler:g}",
         compass=f"{tools.compass:g}", directions=f"{tools.set_square:g}",
-    )  # fmt: skip
+    )
     blocks: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
         Heading(said("answer key", language)),
@@ -473,7 +473,7 @@ def way(row: Compared, language: str) -> str:
     return " ".join(word(key, each) for each in languages(language))
 
 
-# -- the worked solution ----------------------------------------------------------------------------------------------
+# the worked solution
 
 
 MANY = 6  # steps that stand in two columns above their figure
@@ -499,7 +499,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     # velocity plans of what rolls, and those of the tangential accelerations, each a figure
     plans = train_pages(FigurePage(lesson.sheet, "plan", lesson.language, lesson.letters))
     pages = [[plans.pop(n) for n in dict.fromkeys(step.plan for step in stage.steps) if n in plans]
-             for stage in lesson.stages]  # fmt: skip
+             for stage in lesson.stages]
     drawn = iter([stage for stage in lesson.stages if not stage.of_plans][1:])
     leads_on = [stage.of_plans or _leads_on(stage, next(drawn, None)) for stage in lesson.stages]
     count = 0  # of the figures
@@ -608,7 +608,7 @@ def results_blocks(lesson: Lesson) -> Iterator[Block]:
         results_table(lesson, "quantity", "on paper", "measured", "exact", "unit", "sense"),
         Paragraph(verdict),
         Paragraph(how, small=True),
-    ))  # fmt: skip
+    ))
 
 
 def stage_title(lesson: Lesson, stage: Stage) -> Said:

@@ -151,7 +151,7 @@ def bank(category: str, files: Sequence[Mapping[str, bytes]]) -> dict[str, bytes
     return {name: whole for name, whole in banks.items() if texts[name]}
 
 
-# -- Moodle ------------------------------------------------------------------------------------------------------------
+# Moodle
 
 _CUT = "<!-- questions -->"
 
@@ -194,7 +194,7 @@ def _cloze_field(asked: AskedNumber) -> str:
     return "{1:NUMERICAL:" + "~".join(answers) + "}"
 
 
-# -- GIFT --------------------------------------------------------------------------------------------------------------
+# GIFT
 
 
 def gift(question: Question) -> str:
@@ -213,7 +213,7 @@ def _gift_words(words: str) -> str:
     return re.sub(r"([~=#{}:\\])", r"\\\1", words).replace("\n", " ")
 
 
-# -- PrairieLearn ------------------------------------------------------------------------------------------------------
+# PrairieLearn
 
 
 def prairielearn(question: Question) -> dict[str, bytes]:

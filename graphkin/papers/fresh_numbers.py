@@ -75,7 +75,7 @@ def drivers_of(source: Tables) -> list[tuple[KeyPath, Tables]]:
     drivers = source.get("driver", [])
     return [(("driver", i), driver) for i, driver in enumerate(drivers)] if isinstance(drivers, list) else [
         (("driver",), drivers)
-    ]  # fmt: skip
+    ]
 
 
 def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:
@@ -179,7 +179,7 @@ def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> floa
     if kind == "end":
         return value + spread.angle_step * dice.randint(-3, 3)
     part = {"length": spread.lengths, "travel": spread.lengths, "place": spread.places, "rate": spread.rates,
-            "moment": spread.rates}[kind]  # fmt: skip
+            "moment": spread.rates}[kind]
     step = round_step(value) * (5.0 if kind == "rate" else 1.0)
     low, high = math.ceil(abs(value) * (1 - part) / step), math.floor(abs(value) * (1 + part) / step)
     steps = dice.randint(low, high) if low <= high else max(1, round(abs(value) / step))
@@ -265,7 +265,7 @@ def _teeth(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
         for gear in scene.gears if not gear.is_rack
         for i, (link, z) in enumerate(zip(gear.bodies, gear.teeth, strict=True))
         if not free(("gears", gear.name, "teeth", i))
-    }  # fmt: skip
+    }
     for gear in scene.gears:
         if gear.is_rack:
             continue
@@ -343,7 +343,7 @@ def _disc(made: Tables, ref: str) -> float:
     return float(made["links"].get(link, made.get("frame", {}))["discs"][name]["r"])
 
 
-# -- what [vary] says --------------------------------------------------------------------------------------------------
+# what [vary] says
 
 
 def level_of(source: Tables) -> Bounds:
@@ -378,7 +378,7 @@ def rules_checked(source: Tables) -> None:
     problems = [
         Problem(where, Phrase("is no number of the scene", key=key), wanted)
         for where, key in keys if _path_of_number(source, key) is None
-    ]  # fmt: skip
+    ]
     for key, (low, high) in table.get("ranges", {}).items():
         if low > high:
             problems.append(Problem(f"vary.ranges.{key}", "from to", "give the smaller value first", least=f"{low:g}",

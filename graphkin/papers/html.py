@@ -93,7 +93,7 @@ def _templates() -> Environment:
     return made
 
 
-# -- whole pages -------------------------------------------------------------------------------------------------------
+# whole pages
 
 
 def document_page(document: Document) -> str:
@@ -113,7 +113,7 @@ def whole_page(document: Document, body: str, script: str = "", data: object = N
     paper, code = document.paper, _file(script) if script else ""
     json_text = "" if data is None else json.dumps(
         data, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":")
-    )  # fmt: skip
+    )
     name, rules = face_rules(_used_characters(body + json_text))
     style = rules + _file("page.css").replace("FAMILIES", families(name).replace("'", '"'))
     # in millimetres, since CSS has no names for papers larger than A3

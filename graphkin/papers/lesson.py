@@ -154,7 +154,7 @@ class Lesson:
         return tuple(
             symbol for symbol in found
             if symbol.kind in ("v", "a", "omega", "alpha") and isinstance(known_symbol("", str(symbol), whole), Symbol)
-        )  # fmt: skip
+        )
 
     def _is_result(self, symbol: Symbol) -> bool:
         if symbol.kind == "arm":  # of the lever, beside which it stands
@@ -172,7 +172,7 @@ class Lesson:
         return float(symbol.unit(self.sheet.scene.units).of(value))
 
 
-# -- lessons of a scene ------------------------------------------------------------------------------------------------
+# lessons of a scene
 
 
 def lesson_of(planned: Plan, motion: Motion, language: str, convention: str) -> Lesson:

@@ -97,7 +97,7 @@ def paper_plan(
     if asked and not here:
         raise CallError(*(Problem(f"find {symbol}", Phrase("papers are of one position"),
                                   Phrase("take that position", symbol=symbol.here, position=symbol.at))
-                          for symbol in asked))  # fmt: skip
+                          for symbol in asked))
     fitted = plan(of, values, here)
     scene = fitted.structure.scene
     paper = paper_of(scene)

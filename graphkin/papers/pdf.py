@@ -78,7 +78,7 @@ def pdf(document: Document) -> bytes:
         sizes = typst.query(
             template, "<sizes>", field="value", one=True, format="json", font_paths=fonts,
             sys_inputs=_inputs({**frame, "measure": asked}),
-        )  # fmt: skip
+        )
         return [(wide, high) for wide, high in json.loads(sizes)]
 
     with warnings.catch_warnings():
@@ -170,11 +170,11 @@ FORMS: Mapping[str, Callable[[Any], object]] = {
     "words": _said, "caption": _said, "heads": lambda heads: [*map(_said, heads)], "width": _mm, "height": _mm,
     "names": lambda names: [*map(_said, names)], "work": lambda lines: [*map(_words, lines)], "drawing": _drawing,
     "rows": lambda rows: [[*map(_words, row)] for row in rows], "bold": sorted, "seen": clean,
-}  # fmt: skip
+}
 """The fields of blocks that are not handed to the template as they are, and what it reads instead."""
 
 
-# -- pieces on pages --------------------------------------------------------------------------------------------------
+# pieces on pages
 
 
 COLUMN_GAP = 4.0  # mm between two columns of steps
@@ -256,7 +256,7 @@ def pages_of(document: Document, measure: Measure) -> list[tuple[Page, ...]]:
     asked = tuple(dict.fromkeys(
         question for some, width in ((folded, half), (whole, wide)) for piece in some
         for question in _questions(piece, width)
-    ))  # fmt: skip
+    ))
     sizes = dict(zip(asked, measure(asked), strict=True))
     halves = _filled(folded, half, high, sizes)
     return [tuple(halves[i : i + 2]) for i in range(0, len(halves), 2)] + [
@@ -264,7 +264,7 @@ def pages_of(document: Document, measure: Measure) -> list[tuple[Page, ...]]:
     ]
 
 
-# -- from blocks to pieces of known height -----------------------------------------------------------------------------
+# from blocks to pieces of known height
 
 
 def _pieces(blocks: Iterable[Block]) -> Iterator[PageItem]:
@@ -394,7 +394,7 @@ def _around(block: Leaf) -> tuple[float, float]:
     return (3.3, 3.3) if roomy else (2.6, 2.6)
 
 
-# -- pages with the least white ----------------------------------------------------------------------------------------
+# pages with the least white
 
 
 @dataclass(frozen=True)

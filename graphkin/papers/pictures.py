@@ -125,7 +125,7 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
             things = tuple(
                 thing for thing, after in both if not names_result(thing)
                 and not (isinstance(thing, Group) and "leader" in thing.classes and names_result(after))
-            )  # fmt: skip
+            )
             kept.append(layer._replace(children=things))
     described = describe(lesson.sheet, ("mechanism",), lesson.language)
     return _cropped(lesson, kept, term("mechanism", lesson.language), described, "mechanism")
@@ -141,7 +141,7 @@ def equation_picture(lesson: Lesson, equation: Equation) -> Drawing:
     return _cropped(lesson, written.piece.drawn, " = ".join(sides), "")
 
 
-# -- frames to draw in -------------------------------------------------------------------------------------------------
+# frames to draw in
 
 
 def workspace(lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], page: Box) -> Drawing | None:
@@ -198,7 +198,7 @@ def draw_frame(
         Polygon(Box(0.2, 0.2, wide - 0.2, tall).corners, "", strokes.DIMENSION), *marks,
         *moved((words,), complex(3.0, tall - 3.0)),
         *moved(bar, complex(wide - 3.0 - BAR, tall - (3.0 if wide > 2 * BAR else 10.0))),
-    )  # fmt: skip
+    )
     return Drawing(wide, tall + 0.2, children, title, "", languages(language)[0])
 
 

@@ -126,13 +126,13 @@ def handout_page(
 BUTTONS = (
     ("first", "|◀", "first step"), ("previous", "◀", "previous step"), ("next", "▶", "next step"),
     ("last", "▶|", "last step"), ("equation", "▶▶", "next equation"),
-)  # fmt: skip
+)
 SPOKEN = {
     "stepOf": "step of", "right": "trial right", "off": "trial off", "turned": "trial turned", "enter": "trial enter",
     "hint1": "hint equation", "hint2": "hint direction", "hint3": "hint size", "play": "play", "pause": "pause",
     "ccw": "counter-clockwise", "cw": "clockwise", "hidden": "step hidden", "velocity": "velocity polygon",
     "acceleration": "acceleration polygon", "mechanism": "mechanism", "figure": "figure numbered",
-}  # fmt: skip
+}
 """What the page itself says, by the names of its script: keys of the table."""
 
 
@@ -185,7 +185,7 @@ def _frames(views: Sequence[Lesson], pieces: Sequence[tuple[Piece, Box]]) -> Fra
     near = [
         near_box(view.centres, ink_box(background(piece).drawn) or box, MECHANISM)
         for view, (piece, box) in zip(views, pieces, strict=True) if view.centres is not None
-    ]  # fmt: skip
+    ]
     return frames | ({"centres": (reduce(Box.joined, near).grown(ROOM), 0.0)} if near else {})
 
 
@@ -236,7 +236,7 @@ def _motion(lesson: Lesson, plans: Container[str]) -> Iterator[StageTold]:
         yield {"title": said_html(stage_title(lesson, stage)), "svg": svg}, stage.diagram, [*items]
 
 
-# -- figures of a position ---------------------------------------------------------------------------------------------
+# figures of a position
 
 
 def _figure(name: str, drawing: Drawing, caption: str, scale: str = "", named: bool = False) -> Figure:
@@ -256,7 +256,7 @@ def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
             f"{spoken_words(letters.vector(row.symbol), first)} "
             f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, first)}"
             for row in lesson.results if row.symbol.is_vector and row.symbol.measure.name == name
-        )  # fmt: skip
+        )
         title = term(FIGURE_WORDS[name] if name != "centres" else name, lesson.language)
         told = whole_sentence(spoken_words(at, first), first) + word("between sentences", first) + vectors
         shown = stepped(children) if is_stepped else children
@@ -333,7 +333,7 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         figures.append(_figure("lever", lever, said_html(said("lever", language))))
 
 
-# -- what a step finds, to be tried first ------------------------------------------------------------------------------
+# what a step finds, to be tried first
 
 
 def _find(lesson: Lesson, symbol: Symbol, name: RichText, value: complex | float) -> dict[str, Json]:
@@ -387,7 +387,7 @@ def _tolerances(lesson: Lesson) -> dict[str, float]:
     return parts
 
 
-# -- the mechanism in motion -------------------------------------------------------------------------------------------
+# the mechanism in motion
 
 Track: TypeAlias = list[float | None]
 """Coordinates of a place over the motion, [x0, y0, x1, y1, ...], to 0.01 mm."""

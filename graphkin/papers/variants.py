@@ -155,7 +155,7 @@ def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Sym
 def examined(
     source: Tables, base: Tables | None, name: str, strict: bool = True, bounds: Bounds = LEVELS["usual"],
     fewest: int = 0,
-) -> Variant:  # fmt: skip
+) -> Variant:
     """A variant from the mapping of a scene file, if it makes a good problem.
 
     Parameters
@@ -326,7 +326,7 @@ def _answers(
         yield symbol, 0.0 if abs(value) < least else abs(value) if symbol.is_vector else value.real
 
 
-# -- a set of them -----------------------------------------------------------------------------------------------------
+# a set of them
 
 Render = Callable[[Variant], Mapping[str, bytes]]
 Papers = Callable[[], tuple[Variant, Mapping[str, bytes]]]

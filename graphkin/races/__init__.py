@@ -93,7 +93,7 @@ def race(scene: Mechanism, repeats: int, count: int = COUNT) -> Race:
     return Race(
         scene, tuple(entries), copy_time(work, repeats), by_hand, repeats, work.count, len(work.rows),
         this_machine(), tuple(skipped), work.asked,
-    )  # fmt: skip
+    )
 
 
 def _peer(name: str, work: Work, repeats: int) -> Iterator[Entry]:
@@ -140,7 +140,7 @@ def to_json(race: Race) -> dict[str, Json]:
             for e in race.entries
         ],
         "left_out": [{"peer": name, "why": str(why)} for name, why in race.skipped],
-    }  # fmt: skip
+    }
 
 
 WIDTH, HEIGHT = 297.0, 210.0
@@ -180,7 +180,7 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
     cores, processor, programs = race.machine
     versions = listed([f"{program} {version}" for program, version in programs.items()])
     facts = say(Phrase("speed facts", cores=cores, processor=processor, versions=versions, runs=race.repeats,
-                       positions=race.count, places=race.places), language)  # fmt: skip
+                       positions=race.count, places=race.places), language)
     half = (WIDTH - LEFT - RIGHT - GAP) / 2
 
     def paint(figure: Figure) -> None:
@@ -197,7 +197,7 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
     return ChartPage(
         WIDTH, HEIGHT, paint, title=f"{title}: {name}", desc=facts, lang=language,
         metadata={"study": "speed-accuracy", "scene": race.scene.name},
-    )  # fmt: skip
+    )
 
 
 def lessons(race: Race) -> tuple[Phrase, ...]:
@@ -216,7 +216,7 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
             "speed lesson draw", minutes=f"{usual.acceleration_cost / 60:.2g}", error=f"{100 * usual.error:.2g}",
             size=usual.tag, large_error=f"{100 * large.error:.2g}", large_size=large.tag,
             exact_time=f"{1e3 * drawn.acceleration_cost:.2g}", exact_error=f"{drawn.error:.1g}",
-        ))  # fmt: skip
+        ))
     phrases.append(Phrase("speed lesson compute", times=times(closed, drawn), error=f"{closed.error:.1g}"))
     steps = [e for e in race.entries if e.key == "differences"]
     by_newton = [e for e in race.entries if e.key == "Newton"]
@@ -224,12 +224,12 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
     if steps and newton is not None:
         single = race.of("closed single")
         best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)
-                for kind in ("velocity_error", "acceleration_error")]  # fmt: skip
+                for kind in ("velocity_error", "acceleration_error")]
         phrases.append(Phrase(
             "speed lesson lose", times=times(steps[0], closed),
             velocity=f"{best[0]:.1g}", acceleration=f"{best[1]:.1g}", single_times=times(single, closed),
             single_error=f"{single.error:.1g}", newton_times=times(newton, closed), newton_error=f"{newton.error:.1g}",
-        ))  # fmt: skip
+        ))
     return tuple(phrases)
 
 

@@ -47,7 +47,7 @@ def copy_time(work: Work, repeats: int) -> tuple[float, float]:
     return quick, all_of
 
 
-# -- the closed form ---------------------------------------------------------------------------------------------------
+# the closed form
 
 
 def columns_of(work: Work, kinds: str = "va") -> list[Symbol]:
@@ -83,7 +83,7 @@ def closed_forms(work: Work, repeats: int) -> Iterator[Entry]:
 
     def timed(run: Callable[[PreparedMechanism, Array], object]) -> list[float]:
         return [best_time(partial(run, p, room), repeats) / work.count
-                for p, room in zip(mechanisms, rooms, strict=True)]  # fmt: skip
+                for p, room in zip(mechanisms, rooms, strict=True)]
 
     costs = timed(lambda p, room: p.sweep(work.count, room))
     yield _closed(work, "closed arrays", "", both.columns(values)[0], costs)
@@ -116,7 +116,7 @@ def one_by_one(work: Work, repeats: int, tag: str) -> Entry:
     mechanisms = _prepared(work)
     few = [float(v) for v in work.values[:, 0]]
     costs = [best_time(lambda at=p.at: list(map(at, few)), repeats) / len(few)  # type: ignore[misc]
-             for p in mechanisms]  # fmt: skip
+             for p in mechanisms]
     return _closed(work, "closed floats", tag, np.array([mechanisms[1].at(v) for v in few]).T, costs)
 
 
@@ -147,7 +147,7 @@ def whole_solve(work: Work, repeats: int) -> Iterator[Entry]:
     yield Entry("closed", "whole solve", "", whole, whole, *work.errors(v, a))
 
 
-# -- the closure equations in numbers ----------------------------------------------------------------------------------
+# the closure equations in numbers
 
 
 class Numeric:
@@ -250,7 +250,7 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
         yield Entry("differences", "differences", f"1e-{k}", quick, whole, *errors)
 
 
-# -- drawn -------------------------------------------------------------------------------------------------------------
+# drawn
 
 
 def drawn(work: Work, repeats: int) -> Iterator[Entry]:
@@ -326,5 +326,5 @@ def _if_all(vectors: Sequence[Sequence[complex | float | None]]) -> Array | None
 
 METHODS: tuple[Callable[[Work, int], Iterator[Entry]], ...] = (
     closed_forms, whole_solve, newton, differences, complex_step, drawn, instant_centres,
-)  # fmt: skip
+)
 """All of ours, in the order in which they run."""

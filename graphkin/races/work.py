@@ -190,7 +190,7 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
     return Work(structure, outputs, fine, picked, truth.transpose(1, 2, 0), count, full)
 
 
-# -- a measurement: what a method costs and how far it is off, and the machine it was made on --------------------------
+# a measurement: what a method costs and how far it is off, and the machine it was made on
 
 
 ENOUGH, MOST = 0.08, 40  # s, runs

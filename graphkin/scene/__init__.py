@@ -76,7 +76,7 @@ __all__ = [
     "Driver", "Flywheel", "Frame", "Gear", "Gravity", "Guide", "LawPiece", "Link", "Load", "LoadPhase", "Mass",
     "Pin", "Polar", "Positions", "PrintedTable", "Scene", "SheetWishes", "Spring", "StrokeStart", "Tools", "Units",
     "Vary", "library", "library_text", "mechanism_of", "mechanism_of_text", "read", "schema",
-]  # fmt: skip
+]
 
 
 def schema() -> dict[str, Json]:

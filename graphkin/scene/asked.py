@@ -24,7 +24,7 @@ BY = ("drawing", "computation")
 Stated = float | str | Sequence[float]
 
 
-# -- quantities --------------------------------------------------------------------------------------------------------
+# quantities
 
 
 def known_symbol(where: str, text: str, scene: Mechanism | Reading, drawn: bool = True) -> Symbol | list[Problem]:
@@ -52,7 +52,7 @@ def known_symbol(where: str, text: str, scene: Mechanism | Reading, drawn: bool 
     if slides and symbol.other and symbol.link[:1].isupper() and missing[0]:  # of a pin in a slot
         missing[0] = scene.no_point(where, symbol.link)
     missing += [scene.no_point(where, ref.point) for ref in (of, to)
-                if ref and not (symbol.kind == "d" and centre_links(ref.point, scene.points))]  # fmt: skip
+                if ref and not (symbol.kind == "d" and centre_links(ref.point, scene.points))]
     problems = [problem for problem in missing if problem is not None]
     if problems:
         return problems
@@ -190,7 +190,7 @@ def _digits_of(number: float) -> str:
     return text if "e" not in text or tiny or not math.isfinite(number) else format(Decimal(text), "f")
 
 
-# -- positions and loops -----------------------------------------------------------------------------------------------
+# positions and loops
 
 
 def positions_named(table: Positions, reading: Reading) -> Positions:

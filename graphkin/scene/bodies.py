@@ -115,7 +115,7 @@ class Reading:
     def points(self) -> Mapping[str, tuple[str, ...]]:
         """The points of each link, the frame's included."""
         names = {name: (*link.points, *link.at, *sorted(self.lost_names("links", name, "at")))
-               for name, link in self.links.items()}  # fmt: skip
+               for name, link in self.links.items()}
         names |= dict.fromkeys(self.lost_names("links"), ())
         names.setdefault(self.frame.name, (*self.frame.points, *sorted(self.lost_names("frame", "points"))))
         return {name: tuple(dict.fromkeys(points)) for name, points in names.items()}
@@ -124,7 +124,7 @@ class Reading:
     def guides(self) -> Mapping[str, frozenset[str]]:
         """The names of the guides of each link, the frame's included."""
         names = {name: frozenset(link.guides) | self.lost_names("links", name, "guides")
-               for name, link in self.links.items()}  # fmt: skip
+               for name, link in self.links.items()}
         names |= dict.fromkeys(self.lost_names("links"), frozenset[str]())
         names.setdefault(self.frame.name, frozenset(self.frame.guides) | self.lost_names("frame", "guides"))
         return names
@@ -224,7 +224,7 @@ class Reading:
         return Problem(where, "link has no guide", hint, link=link, guide=guide)
 
 
-# -- the file as a whole -----------------------------------------------------------------------------------------------
+# the file as a whole
 
 MOST_LINKS = 200
 MOST_POINTS = 100
@@ -251,7 +251,7 @@ def check_texts(reading: Reading) -> None:
             reading.say(where, "holds a control character or a line break", "write one line of plain text")
 
 
-# -- own points and what is placed from them ---------------------------------------------------------------------------
+# own points and what is placed from them
 
 
 def check_own_points(reading: Reading) -> None:
@@ -322,7 +322,7 @@ def _circle_of_references(link: Link) -> list[str]:
     return trail[trail.index(here) :] if trail else []
 
 
-# -- pairs -------------------------------------------------------------------------------------------------------------
+# pairs
 
 
 def sliding_pairs(reading: Reading) -> tuple[Pair, ...]:
@@ -449,7 +449,7 @@ def islands(reading: Reading) -> list[tuple[str, ...]]:
     return [*dict.fromkeys(tuple(n for n in known if n in island[name]) for name in moving)]
 
 
-# -- carriages ---------------------------------------------------------------------------------------------------------
+# carriages
 
 
 def with_carriages(reading: Reading) -> Reading:
@@ -481,7 +481,7 @@ def _measured(reading: Reading, link: Link) -> Link:
     return replace(link, angle_on=math.remainder(angle, 360.0))
 
 
-# -- circular slots ----------------------------------------------------------------------------------------------------
+# circular slots
 
 Key = tuple[str, str]
 """A link, and the name of a guide of it."""
@@ -556,7 +556,7 @@ def with_bars(reading: Reading) -> Reading:
     moving = {name: on_bars(name, link) for name, link in reading.links.items()}
     frame = replace(reading.frame, points={**reading.frame.points, **given[reading.frame.name]})
     return replace(reading, frame=without_arcs(frame.name, frame), links={**moving, **bars}, pins=kept,
-                   slots=tuple(slots))  # fmt: skip
+                   slots=tuple(slots))
 
 
 def _centre(

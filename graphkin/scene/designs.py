@@ -146,7 +146,7 @@ class Design(FileTable):
 
 DESIGN = Form(Design, "graphkin design")
 
-# -- finding and reading -----------------------------------------------------------------------------------------------
+# finding and reading
 
 DesignLike = Design | str | os.PathLike[str] | Tables
 
@@ -275,7 +275,7 @@ def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositi
     return None if len(problems) > before else replace(task, positions=(first, second, third))
 
 
-# -- the mechanism that was found --------------------------------------------------------------------------------------
+# the mechanism that was found
 
 
 def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[str, complex]) -> dict[str, Json]:
@@ -291,13 +291,13 @@ def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[st
     if isinstance(task, SliderCrankTask):
         frame["guides"] = {"h": {"through": [0.0, places["C"].imag], "angle": 0.0}}
         links = {"1": _bar_link("A", "B", lengths), "2": _bar_link("B", "C", lengths),
-                 "3": {"points": ["C"], "on": "0.h"}}  # fmt: skip
+                 "3": {"points": ["C"], "on": "0.h"}}
     elif isinstance(task, GuideBarTask):
         frame["guides"] = {"h": {"through": [0.0, places["E"].imag], "angle": 0.0}}
         links = {
             "1": _bar_link("A", "B", lengths), "2": {"points": ["B"], "on": "3"}, "3": _bar_link("C", "D", lengths),
             "4": {"points": ["D", "E"], "length": task.rod_length}, "5": {"points": ["E"], "on": "0.h"},
-        }  # fmt: skip
+        }
     elif "M" in places:
         moving = "M"
         coupler = _bar_link("M", "N", lengths)
@@ -306,14 +306,14 @@ def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[st
         links = {"1": _bar_link("A", "M", lengths), "2": coupler, "3": _bar_link("D", "N", lengths)}
     else:
         links = {"1": _bar_link("A", "B", lengths), "2": _bar_link("B", "C", lengths),
-                 "3": {"points": ["D", "C"], "length": lengths["CD"]}}  # fmt: skip
+                 "3": {"points": ["D", "C"], "length": lengths["CD"]}}
     angle = tidy(degrees(places[moving] - places["A"]))
     made = {key: text for key in ("title", "title_zh", "source") if (text := getattr(design, key))}
     return {
         **made, "units": {"length": design.units.length}, "frame": frame, "links": links,
         "driver": {"link": "1", "angle": angle, "omega": 1.0},
         "sketch": {name: xy(z) for name, z in places.items() if name not in fixed},
-    }  # fmt: skip
+    }
 
 
 def _bar_link(first: str, second: str, lengths: Mapping[str, float]) -> dict[str, Json]:

@@ -24,7 +24,7 @@ from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver, DriverLaw
 from graphkin.scene.tables import Units, in_si, in_units
 from graphkin.words import Phrase, joined, listed
 
-# -- reading -----------------------------------------------------------------------------------------------------------
+# reading
 
 
 def drives(reading: Reading) -> dict[str, model.Driver]:
@@ -290,7 +290,7 @@ def stated_driver(driver: model.Driver, tables: Iterable[Driver | DrivenSlide], 
     crank = table or Driver(link=driver.link, relative_to=driver.relative_to)
     value, position = (None, crank.position) if driver.position else (value, None)
     return in_units(replace(crank, angle=value, omega=rate if speed is None else None, rpm=None, speed=speed,
-                            alpha=second, sense=None, position=position, time=time), units)  # fmt: skip
+                            alpha=second, sense=None, position=position, time=time), units)
 
 
 def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
@@ -368,7 +368,7 @@ def _spline(times: Sequence[float], values: Sequence[float]) -> list[float]:
     return rates
 
 
-# -- over the time -----------------------------------------------------------------------------------------------------
+# over the time
 
 
 def moves_by_law(scene: Mechanism) -> bool:

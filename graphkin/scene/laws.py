@@ -122,7 +122,7 @@ class LiftPiece:
             return (self,)
         shares = [0.0, *(share for share, _ in LAWS[self.by])] if self.by else [0.0, 1.0]
         angles, lifts = ([a * (1.0 - share) + b * share for share in shares]
-                         for a, b in ((self.start, self.end), (self.low, self.high)))  # fmt: skip
+                         for a, b in ((self.start, self.end), (self.low, self.high)))
         ends = zip(pairwise(angles), pairwise(lifts), strict=True)
         return tuple(LiftPiece(*angle, *lift, self.by, k) for k, (angle, lift) in enumerate(ends))
 

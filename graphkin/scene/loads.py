@@ -22,7 +22,7 @@ NONE, TURN = 1e-12 * math.tau, (1 + 1e-12) * math.tau
 ACTING = ("masses", "loads", "springs")
 """The tables of what makes forces."""
 
-# -- reading -----------------------------------------------------------------------------------------------------------
+# reading
 
 
 def loading_of(reading: Reading) -> Loading:
@@ -45,7 +45,7 @@ def loading_of(reading: Reading) -> Loading:
         where = "balance" if balancing else "flywheel"
         reading.say(where, "there is nothing to balance", "give masses.link loads.name or springs.name")
     return Loading(down, tuple(filter(None, weighing)), tuple(filter(None, carried)), balancing, evening,
-                   tuple(filter(None, pulling)))  # fmt: skip
+                   tuple(filter(None, pulling)))
 
 
 def _not_moving(reading: Reading, where: str, link: str) -> bool:

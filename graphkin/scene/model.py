@@ -146,7 +146,7 @@ class SpringOn:
         """The numbers in its sentences, in the units of a scene, with the unit."""
         return {"rate": (self.rate * units.metres / units.newtons, f"{units.force}/{units.length}"),
                 "free": (self.free / units.metres, units.length),
-                "preload": (self.preload / units.newtons, units.force)}  # fmt: skip
+                "preload": (self.preload / units.newtons, units.force)}
 
     @property
     def where(self) -> str:
@@ -261,7 +261,7 @@ class Driver:
             key=self.slide or (f"{self.link}'" if self.ratios else self.link),
             values=(self.value, self.rate, self.second), measure="length" if self.slide else "angle",
             rolls=bool(self.ratios), given=not self.ratios,
-        )  # fmt: skip
+        )
 
     def span(self, size: float) -> float:
         """The divisor that frees its values of their unit: 1 rad, or a size (m)."""
@@ -503,7 +503,7 @@ class Mechanism:
         return max(spans, default=0.0) or self.units.metres
 
 
-# -- the numbers in which the designs of one mechanism differ ----------------------------------------------------------
+# the numbers in which the designs of one mechanism differ
 
 Dimension = tuple[str | int, ...]
 """("point", link, point), ("through", link, guide), ("direction", link, guide), ("turn", sliding pair), and of the
@@ -533,12 +533,12 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
         points = {p: own(z, "point", old.name, p) for p, z in old.points.items()}
         guides = {n: replace(g, through=own(g.through, "through", old.name, n),
                              direction=own(g.direction, "direction", old.name, n))
-                  for n, g in old.guides.items()}  # fmt: skip
+                  for n, g in old.guides.items()}
         return replace(old, points=points, guides=guides)
 
     def driver(k: int, old: Driver) -> Driver:
         value, rate, second = (own(complex(x), what, k).real
-                               for what, x in zip(("value", "rate", "second"), old.values, strict=True))  # fmt: skip
+                               for what, x in zip(("value", "rate", "second"), old.values, strict=True))
         return replace(old, value=value, rate=rate, second=second, rpm=None if ("rate", k) in changed else old.rpm)
 
     return replace(
@@ -546,7 +546,7 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
         slides=tuple(replace(pair, turn=own(pair.turn, "turn", pair.key)) for pair in mechanism.slides),
         drivers=tuple(driver(k, d) for k, d in enumerate(mechanism.drivers)),
         sketch={**mechanism.drawn, **mechanism.sketch}, drawn={},
-    )  # fmt: skip
+    )
 
 
 _MOVING = "frame", "links", "slides", "drivers", "higher_pairs", "starts", "slots"
@@ -560,7 +560,7 @@ def changed_beside(before: Mechanism, after: Mechanism) -> tuple[str, ...]:
     one, other = (with_dimensions(mechanism, numbers) for mechanism in (before, after))
     changed = [part for part in _MOVING if getattr(one, part) != getattr(other, part)]
     touching = {pair.table: None for pair in (*one.higher_pairs, *other.higher_pairs)
-                if (pair in one.higher_pairs) != (pair in other.higher_pairs)}  # fmt: skip
+                if (pair in one.higher_pairs) != (pair in other.higher_pairs)}
     return tuple(name for part in changed for name in (touching if part == "higher_pairs" else (part,)))
 
 
@@ -570,7 +570,7 @@ def same_but_for_dimensions(before: Mechanism, after: Mechanism) -> bool:
     return with_dimensions(before, numbers) == with_dimensions(after, numbers)
 
 
-# -- the joints that carry forces, and the forces and moments by name --------------------------------------------------
+# the joints that carry forces, and the forces and moments by name
 
 
 @dataclass(frozen=True)
@@ -609,7 +609,7 @@ def hosts_at(mechanism: Mechanism, point: str, holders: Collection[str]) -> dict
     holders : the links that meet there
     """
     ends = ((slot.bar, host) for slot in mechanism.slots
-            for place, host in ((slot.point, slot.of), (slot.centre, slot.on)) if place == point)  # fmt: skip
+            for place, host in ((slot.point, slot.of), (slot.centre, slot.on)) if place == point)
     return {bar: host for bar, host in ends if bar in holders and host in holders}
 
 

@@ -27,7 +27,7 @@ ContactMotion = Literal["slides", "rolls", "meshes"]
 """Two bodies that touch slide on each other, and the force is along the common normal; or roll, with a force of any
 direction; or mesh, their centres held apart by another link, with a force along the tangent of the pitch circles."""
 
-# -- sliding pairs, slots, what touches --------------------------------------------------------------------------------
+# sliding pairs, slots, what touches
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ class Pair:
         self.__dict__.update(
             turns=turns, higher=bool(self.of), body=self.of or self.a, links=(self.a, self.b),
             point=self.key if turns else "", letter="R" if turns else "P",
-        )  # fmt: skip
+        )
 
     @classmethod
     def sliding(cls, a: str, b: str, guide: PlacedGuide, turn: complex = 1 + 0j, pin: str = "") -> Pair:
@@ -131,7 +131,7 @@ class Pair:
         """The names in its sentences, and the angle (degrees) of the link's own axis to the guide."""
         guide = f"{self.b}.{self.guide.name}" if self.guide.name else self.b
         return {"point": self.pin, "link": self.body, "on": self.b, "guide": guide,
-                "angle": f"{degrees(self.turn) + 0.0:.6g}"}  # fmt: skip
+                "angle": f"{degrees(self.turn) + 0.0:.6g}"}
 
 
 @dataclass(frozen=True)
@@ -162,7 +162,7 @@ class CircularSlot:
     def gaps(self) -> dict[str, object]:
         """The names in its sentences."""
         return {"point": self.point, "link": self.of or self.bar, "on": self.on, "guide": f"{self.on}.{self.name}",
-                "centre": self.centre, "bar": self.bar}  # fmt: skip
+                "centre": self.centre, "bar": self.bar}
 
 
 @dataclass(frozen=True)
@@ -271,7 +271,7 @@ class PlacedContact:
         sides = (f"{link}.{name}" if name else link for link, name in zip(self.bodies, self.outlines, strict=True))
         return {"contact": self.name, "first": self.bodies[0], "second": self.bodies[1], "carrier": self.carrier,
                 "bar": self.block, "centre": self.centres[0],
-                **dict(zip(("first_side", "second_side"), sides, strict=True))}  # fmt: skip
+                **dict(zip(("first_side", "second_side"), sides, strict=True))}
 
 
 @dataclass(frozen=True)
@@ -351,7 +351,7 @@ class PlacedGear:
         """The names in its sentences, and its numbers of teeth."""
         first, second = (None if teeth is None else _counted(teeth) for teeth in self.teeth)
         return {"gear": self.name, "first": self.bodies[0], "second": self.bodies[1], "carrier": self.carrier,
-                "teeth_first": first, "teeth_second": second}  # fmt: skip
+                "teeth_first": first, "teeth_second": second}
 
 
 def _counted(teeth: float) -> Phrase | str:
@@ -360,7 +360,7 @@ def _counted(teeth: float) -> Phrase | str:
     return Phrase("internal teeth of number", number=number) if teeth < 0 else number
 
 
-# -- cams --------------------------------------------------------------------------------------------------------------
+# cams
 
 
 @dataclass(frozen=True)
@@ -516,7 +516,7 @@ class LawCam:
         where the cam turns in a sense, the smallest of several; and the angle of the dwell before it."""
         moving = [piece for piece in self.law.pieces if piece.low != piece.high]
         ends = [(before.end, after.start) for before, after in zip(moving[-1:] + moving[:-1], moving, strict=True)
-                if after.low == lift]  # fmt: skip
+                if after.low == lift]
         grows = sense * self.sense > 0
         return min((self.sense * (end if grows else start) % math.tau, (end - start) % math.tau) for start, end in ends)
 
@@ -539,7 +539,7 @@ class LawCam:
         t1, t2, t3 = motion.side * s1, motion.side * s2, motion.side * s3
         third = (1j * t3 - 3.0 * t1 * t2 - 1j * t1 * t1 * t1) * bar
         return Course(motion.centre - self.axis + bar, 1j * t1 * bar, (1j * t2 - t1 * t1) * bar, third,
-                      1j * motion.side * bar / motion.arm, t1)  # fmt: skip
+                      1j * motion.side * bar / motion.arm, t1)
 
     def beginning(self, units: Units | None = None) -> float:
         """Lift 0: of a sliding follower the distance beyond the foot (m), of a swinging one the angle of its bar from

@@ -195,7 +195,7 @@ def _fixed(reading: Reading) -> dict[str, complex]:
     return {p: places[p] for p in given}
 
 
-# -- the position as far as the file says it ---------------------------------------------------------------------------
+# the position as far as the file says it
 
 
 @dataclass
@@ -300,7 +300,7 @@ def stated_position(reading: Reading, drivers: Collection[Driver]) -> StatedPosi
     position = StatedPosition(
         reading, bodies, drawn, tuple((*d.links, cmath.rect(1.0, d.value)) for d in given if d.turns),
         {d.key: d.value for d in given if not d.turns},
-    )  # fmt: skip
+    )
     _find(position)
     return position
 
@@ -451,7 +451,7 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
     return None if local is None or guide is None else dot(guide.direction, local - guide.through)
 
 
-# -- where rolling starts ----------------------------------------------------------------------------------------------
+# where rolling starts
 
 
 def check_starts(position: StatedPosition) -> None:
@@ -493,7 +493,7 @@ def starts_of(position: StatedPosition, touching: Iterable[HigherPair]) -> dict[
     return {**seen, **{key: travel for key, travel in travels.items() if travel is not None}, **starts}
 
 
-# -- whether what is given agrees --------------------------------------------------------------------------------------
+# whether what is given agrees
 
 
 def check_placed_twice(position: StatedPosition) -> None:

@@ -48,7 +48,7 @@ from graphkin.scene.tables import file_table_by_name, path_name, path_of_key, pl
 from graphkin.scene.touching import cams_of, contacts_of, discs_of, gears_of
 from graphkin.words import Phrase, Wording, from_others, listed
 
-# -- files -------------------------------------------------------------------------------------------------------------
+# files
 
 LARGEST_FILE = 1_000_000
 DEEPEST = 16
@@ -56,7 +56,7 @@ DEEPEST = 16
 grows with the square of a key's parts."""
 _PARTS = re.compile(
     r'''"""(?:[^"\\]|\\.|"(?!""))*+(?:""")?|'{3}(?:[^']|'(?!''))*+(?:'{3})?'''  # strings of several lines
-    r'''|"(?:[^"\\\n]|\\.)*+"?|'[^'\n]*+'?|\#[^\n]*+|[][{}.=,\n]''', re.DOTALL)  # fmt: skip
+    r'''|"(?:[^"\\\n]|\\.)*+"?|'[^'\n]*+'?|\#[^\n]*+|[][{}.=,\n]''', re.DOTALL)
 """Strings and comments of a TOML text, whole, and the signs that part its keys and values."""
 _AT_LINE = re.compile(r"^(.*?)\s*\(at (?:line (\d+), column (\d+)|(end of document))\)$", re.DOTALL)
 
@@ -228,7 +228,7 @@ def toml_text(mapping: Tables) -> str:
     return text.as_string()
 
 
-# -- the mechanism of a file -------------------------------------------------------------------------------------------
+# the mechanism of a file
 
 
 def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[SceneTables, Mechanism]:
@@ -296,7 +296,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         title=file.title or folder, title_zh=file.title_zh, source=file.source, source_zh=file.source_zh, find=find,
         sheet=file.sheet, stated=stated, positions=positions, loops=loops, vary=file.vary, grading=dict(file.grading),
         background=under, scans=scans, written=file,
-    )  # fmt: skip
+    )
     made = Mechanism(
         name=folder, frame=bodies[0], links=tuple(bodies[1:]), slides=reading.slides, drivers=tuple(drivers),
         units=file.units,
@@ -304,7 +304,7 @@ def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[Sce
         loading=loading, higher_pairs=(*touching, *lifting),
         starts=places.starts_of(position, touching) if touching else {}, slots=reading.slots,
         question=question,
-    )  # fmt: skip
+    )
     if find or stated:
         _check_forces(made)
     return file, made
@@ -319,7 +319,7 @@ def _check_forces(made: Mechanism) -> None:
         raise SceneError(*dict.fromkeys(problems))
 
 
-# -- the file of a mechanism -------------------------------------------------------------------------------------------
+# the file of a mechanism
 
 def as_mapping(scene: Mechanism) -> OwnTables:
     """The mapping of a scene file of this mechanism: the file that it was read from, with its drivers as they are now
@@ -339,7 +339,7 @@ def as_mapping(scene: Mechanism) -> OwnTables:
                if name in scene.by_name},
         sketch={point: _place(scene, z) for point, z in sketch.items()},
         drawn={point: place for point, place in file.drawn.items() if point in held},
-    ))  # fmt: skip
+    ))
     head: OwnTables = {}
     for text in ("title", "title_zh", "source", "source_zh", "find"):
         if text in made:
@@ -374,7 +374,7 @@ def _place(scene: Mechanism, z: complex) -> list[float]:
     return [tidy(part / scene.units.metres) for part in (z.real, z.imag)]
 
 
-# -- scenes ------------------------------------------------------------------------------------------------------------
+# scenes
 
 
 def safe_name(name: str) -> str:
@@ -596,7 +596,7 @@ def put(made: OwnTables, key: str, value: object) -> Problem | None:
     return Problem(key, "has no", did_you_mean(part, map(str, place)), before=said, part=part)
 
 
-# -- new scenes --------------------------------------------------------------------------------------------------------
+# new scenes
 
 NEW: Mapping[str, Mapping[str, float]] = {
     "four-bar": {"crank": 150, "coupler": 500, "rocker": 300, "frame": 400, "angle": 60, "rpm": 60},
@@ -623,7 +623,7 @@ def new_scene(kind: str, given: Mapping[str, float]) -> str:
         raise CallError.of("--new", f'"{kind}"', did_you_mean(kind, NEW))
     asks = NEW[kind]
     problems = [Problem(f"--new {kind}", Phrase("asks for no", number=name), did_you_mean(name, asks))
-                for name in given if name not in asks]  # fmt: skip
+                for name in given if name not in asks]
     for name, value in given.items():
         signed = name in ("offset", "angle", "rpm")
         if not math.isfinite(value) or abs(value) > 1e9 or (not signed and value <= 0):

@@ -25,7 +25,7 @@ SMALLEST, LARGEST = 1e-15, 1e15
 """The smallest length, and the smallest rate that is not 0; the largest number."""
 LONGEST_TEXT = 300
 
-# -- kinds of values ---------------------------------------------------------------------------------------------------
+# kinds of values
 
 if TYPE_CHECKING:
     List = Sequence  # what a caller may give; the reader makes lists of it
@@ -95,7 +95,7 @@ Stated = Annotated[
     forms("write a number 1.0 for its digits as"),
 ]
 
-# -- bodies of the scene: frame, links, pins ---------------------------------------------------------------------------
+# bodies of the scene: frame, links, pins
 
 
 @file_table
@@ -178,7 +178,7 @@ class Pin(FileTable):
     slots: GuideRefs = key(name="in")
 
 
-# -- what touches, cams ------------------------------------------------------------------------------------------------
+# what touches, cams
 
 
 TwoOutlines = Annotated[List[GuideRef], Rule(min_length=2, max_length=2)]
@@ -281,7 +281,7 @@ class Cam(FileTable):
     allow: AllowedPressure | None = None
 
 
-# -- what drives -------------------------------------------------------------------------------------------------------
+# what drives
 
 
 @file_table
@@ -323,13 +323,13 @@ OneDriver = Annotated[
     Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")],
     Discriminator(lambda value: "<slide>" if isinstance(value, dict) and value.keys() & {"slide", "link"} == {"slide"}
                   else "<angle>"),
-]  # fmt: skip
+]
 Drivers = Annotated[
     Annotated[OneDriver, Tag("<one>")] | Annotated[List[OneDriver], Tag("<list>")],
     Discriminator(lambda value: "<list>" if isinstance(value, list) else "<one>"),
 ]
 
-# -- what acts ---------------------------------------------------------------------------------------------------------
+# what acts
 
 
 STANDARD_GRAVITY = 9.80665
@@ -408,7 +408,7 @@ class Flywheel(FileTable):
     driving: Literal["constant"] = "constant"
 
 
-# -- what is asked and stated ------------------------------------------------------------------------------------------
+# what is asked and stated
 
 
 @file_table
@@ -460,7 +460,7 @@ class PrintedTable(FileTable):
     by: Literal["drawing", "computation"] = "drawing"
 
 
-# -- the sheet, pictures, sets of problems -----------------------------------------------------------------------------
+# the sheet, pictures, sets of problems
 
 
 Convention = Literal["chinese", "us", "british", "russian"]
@@ -473,7 +473,7 @@ Level = Literal["easy", "usual", "hard"]
 PAPERS = {
     "A5": (148.0, 210.0), "A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0),
     "A0": (841.0, 1189.0),
-}  # fmt: skip
+}
 
 
 @file_table
@@ -548,7 +548,7 @@ class Vary(FileTable):
     tolerance: Part | None = None
 
 
-# -- the whole file ----------------------------------------------------------------------------------------------------
+# the whole file
 
 
 @file_table_by_name

@@ -22,7 +22,7 @@ from graphkin.scene.tables import FORCES, LENGTHS, Units
 from graphkin.words import LANGUAGES, Phrase, area
 
 _GREEK = {"ω": "omega", "Ω": "omega", "α": "alpha", "ε": "alpha", "ϵ": "alpha", "θ": "theta", "φ": "theta",
-          "ϕ": "theta", "ψ": "theta", "γ": "gamma", "τ": "t"}  # fmt: skip
+          "ϕ": "theta", "ψ": "theta", "γ": "gamma", "τ": "t"}
 _WRITTEN = {"w": "omega", "epsilon": "alpha", "phi": "theta", "ac": "ak", "l": "d", "V": "v",
             "F_R": "F", "FR": "F", "R": "F", **{k: k for k in KINDS}}
 _SPOKEN = sorted(_WRITTEN, key=len, reverse=True)
@@ -45,7 +45,7 @@ def plain_text(text: str) -> str:
     )
     powers = re.sub(r"\s*[×xX·*⋅]\s*10\s*\^\s*\{?\s*([-+\u2212]?\d+)\s*\}?", r"e\1", powers)
     signs = str.maketrans({"\u2212": "-", "\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u207b": "-",
-                           **dict.fromkeys("\u20d7\u0305\u200b\u2060\ufeff"), "º": "°"})  # fmt: skip
+                           **dict.fromkeys("\u20d7\u0305\u200b\u2060\ufeff"), "º": "°"})
     return unicodedata.normalize("NFKC", powers.translate(signs)).translate(signs).strip()
 
 
@@ -150,10 +150,10 @@ _UNITS = {unit: _said(f"unit {unit}") for unit in ("mm", "cm", "m", "rad", "deg"
 _LENGTHS = {**LENGTHS, "dm": 0.1, "km": 1e3, "um": 1e-6, "inch": 0.0254, "inches": 0.0254, "\"": 0.0254, "feet": 0.3048}
 _FORCES = {**{force.lower(): newtons for force, newtons in FORCES.items()}, "lb": FORCES["lbf"], "lbs": FORCES["lbf"]}
 _ANGLES = {**dict.fromkeys(("rad", "", "1"), 1.0), **dict.fromkeys(("deg", "°", "degrees"), math.radians(1.0)),
-           **dict.fromkeys(("r", "rev", "turn"), math.tau)}  # fmt: skip
+           **dict.fromkeys(("r", "rev", "turn"), math.tau)}
 _TIMES = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0, "": 1.0}
 _RATE = re.compile(r"(?P<what>[a-z°\"1]*?)(?:/(?P<over>s|sec|min|h)(?P<power>2?)|/(?P<one>s|sec)/(?P<two>s|sec)"
-                   r"|(?P<by>s|min)-(?P<times>[12]))?")  # fmt: skip
+                   r"|(?P<by>s|min)-(?P<times>[12]))?")
 
 
 def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
@@ -225,27 +225,27 @@ _TURN = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)"
 _ANGLE = re.compile(
     r"(?:[∠@]|\bat\b|\b(?:at )?(?:an )?(?:angle|direction)\b|方向角?|角度)\s*(?:of\b|[=:为是])?\s*" + _TURN
     + r"\s*(?:°|deg(?:rees?)?|度)?", re.IGNORECASE,
-)  # fmt: skip
+)
 _LETTERED = re.compile(r"[θφϕψαβ]\s*[=:]\s*" + _NUMBERED, re.IGNORECASE)
 _DEGREES = re.compile(_NUMBERED + r"(?!\s*/)", re.IGNORECASE)
 _RADIANS = re.compile(r"[,;(∠@]\s*" + _TURN + r"\s*rad\b(?!\s*/)", re.IGNORECASE)
 _ARROWS = {"→": 0.0, "↗": 45.0, "↑": 90.0, "↖": 135.0, "←": 180.0, "↙": -135.0, "↓": -90.0, "↘": -45.0,
-           "⇒": 0.0, "⇑": 90.0, "⇐": 180.0, "⇓": -90.0, "➔": 0.0, "➜": 0.0}  # fmt: skip
+           "⇒": 0.0, "⇑": 90.0, "⇐": 180.0, "⇓": -90.0, "➔": 0.0, "➜": 0.0}
 _CLOCKWISE = _said("clockwise", "[↻⟳⥁↷]")
 _SENSES = (
     (_said("counter-clockwise", "[↺⟲⥀↶]"), 1), (_CLOCKWISE, -1), (_said("into the paper"), -1),
     (_said("out of the paper"), 1), (_said("negative", r"[-]\s*k\u0302?\b"), -1), (_said("positive"), 1),
-)  # fmt: skip
+)
 _WAY = [
     (_said(f"{way}"), angle) for way, angle in (
         ("to the upper right", 45.0), ("to the upper left", 135.0), ("to the lower left", -135.0),
         ("to the lower right", -45.0), ("to the right", 0.0), ("to the left", 180.0), ("upward", 90.0),
         ("downward", -90.0), ("along x", 0.0), ("against x", 180.0), ("along y", 90.0), ("against y", -90.0),
     )
-]  # fmt: skip
+]
 
 _COMPASS = {"east": 0, "e": 0, "东": 0, "north": 90, "n": 90, "北": 90, "west": 180, "w": 180, "西": 180,
-            "south": -90, "s": -90, "南": -90}  # fmt: skip
+            "south": -90, "s": -90, "南": -90}
 _WORD = r"(?:north|south|east|west)"
 _ENDING = r"(?:(?:er)?ly|ern|wards?)?"
 _FROM_COMPASS = (
@@ -422,7 +422,7 @@ def _by_quadrant(text: str) -> tuple[Way, str] | None:
 
 
 _TURNS = {"above": 1, "over": 1, "上方": 1, "以上": 1, "之上": 1,
-          "below": -1, "under": -1, "下方": -1, "以下": -1, "之下": -1}  # fmt: skip
+          "below": -1, "under": -1, "下方": -1, "以下": -1, "之下": -1}
 _LEANS = {"left of": 1, "right of": -1}
 
 
@@ -448,7 +448,7 @@ _RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)\s*\}?")
 _INCHES = re.compile(
     r"(?:(?<=[\d)\]])|(?<=lb)|(?<=lbf))[\s·*⋅-]*in\b\.?"
     r"(?!\s+(?:the|its|a|direction|sense|positive|negative|[+-]?[xy]|mm|cm|m|rad|deg)\b)", re.IGNORECASE,
-)  # fmt: skip
+)
 _PER_TIME = re.compile(r"(?<=[\d\s])\b1\s*/\s*(?=s|min)")
 _SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?!\d)(?:[.,]\d+)?(?![\d.,]*\d)")
 _HAT = r"\s*[*·]?\s*(?:\\?hat)?\{{?[{0}]\u0302?\}}?"
@@ -460,7 +460,7 @@ _CELL_PART = rf"({NUMBER})((?:[^\d,;+°→←↑↓-]|(?<=[A-Za-z^])\d)*?)\s*(?:
 _TWO_WAYS = re.compile(
     _CELL_PART.format("right|east|E|→|右|东", "left|west|W|←|左|西") + r"\s*(?:[,;，；]|and|和)?\s*"
     + _CELL_PART.format("up|north|N|↑|上|北", "down|south|S|↓|下|南") + "(?![A-Za-z])"
-)  # fmt: skip
+)
 # no digit that belongs to a unit (s2, s-1, 秒²) is a number
 _BARE_NUMBER = re.compile(rf"(?<![A-Za-z0-9./^])(?<!\d,)(?<![A-Za-z秒]-)(?!(?<=秒)-?2(?![\d.,])){NUMBER}")
 _COMPLEX = re.compile(rf"({NUMBER})\s*([+-])\s*({NUMBER})\s*[*·]?\s*[ij]\b")

@@ -227,7 +227,7 @@ class Symbol:
     def of_names(cls, kind: str, names: Mapping[str, str]) -> Symbol:
         """The quantity of a kind by the names behind it, as `forms_of_names` calls them; "" stands for none."""
         of, to = (PointRef(names[part], names.get(f"{part}_link", "")) if names.get(part) else None
-                  for part in ("of", "to"))  # fmt: skip
+                  for part in ("of", "to"))
         link, other, name = (names.get(part, "") for part in ("link", "other", "name"))
         return cls(kind, of, to, link, other, name=name, plus=bool(names.get("plus")))
 
@@ -361,7 +361,7 @@ _MISSING = {
     "two points": "needs two points", "pair": "names no sliding pair", "links": "needs two links",
     "link or joint": "names no link and no joint of two", "load": "names no load", "force": "names no force",
     "excess work": "is no quantity", "flywheel": "is no quantity",
-}  # fmt: skip
+}
 """What a name lacks that has not the form of its kind; of the other forms it names no link."""
 
 
@@ -381,7 +381,7 @@ def centre_links(name: str, links: Container[str]) -> tuple[str, str] | None:
     return next(((a, b) for a, b in cuts if a != b and a in links and b in links), None)
 
 
-# -- values that somebody states, with the digits they are stated to ---------------------------------------------------
+# values that somebody states, with the digits they are stated to
 
 MOST_PARDONED = 0.01  # part of a value that rounding to one digit may take away
 SMALLEST = -300  # power of ten of a last digit that a double still holds

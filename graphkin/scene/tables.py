@@ -56,7 +56,7 @@ AnyTable = TypeVar("AnyTable", bound="FileTable")
 TABLE = "$table"
 """The key of a schema at which a table inside another is named."""
 
-# -- tables and keys ---------------------------------------------------------------------------------------------------
+# tables and keys
 
 
 class FileTable:
@@ -111,7 +111,7 @@ class FileTable:
 
 def key(
     *, default: Any = MISSING, default_factory: Any = MISSING, name: str = "", unit: str = "", closed: bool = False
-) -> Any:  # fmt: skip
+) -> Any:
     """A key of a table with more rules than its type and its default.
 
     Parameters
@@ -170,7 +170,7 @@ def entries(table: FileTable) -> dict[str, object]:
     return written
 
 
-# -- units -------------------------------------------------------------------------------------------------------------
+# units
 
 class Measure(NamedTuple):
     """What a number measures, by its dimension: powers of length, angle, force and mass, and the order of its
@@ -215,7 +215,7 @@ MEASURES: Mapping[str, Measure] = {
         Measure("moment", length=1, force=1), Measure("work", length=1, force=1), Measure("mass", mass=1),
         Measure("inertia", length=2, mass=1), Measure("stiffness", length=-1, force=1),
     )
-}  # fmt: skip
+}
 """All measures by name."""
 
 
@@ -346,7 +346,7 @@ def xy(place: complex) -> list[float]:
     return [place.real, place.imag]
 
 
-# -- places by their path ----------------------------------------------------------------------------------------------
+# places by their path
 
 KeyPath = tuple[str | int, ...]
 """A place in a file: keys, and numbers of items of lists."""
@@ -402,7 +402,7 @@ def put_at(tables: OwnTables, path: KeyPath, value: object) -> None:
     value_at(tables, path[:-1])[path[-1]] = value
 
 
-# -- the form of a file ------------------------------------------------------------------------------------------------
+# the form of a file
 
 
 MOST_VALUES = 20_000
@@ -585,7 +585,7 @@ class Form(Generic[AnyTable]):
         return did_you_mean(key, self.keys_at(loc[:-1]))
 
 
-# -- what is left of a file --------------------------------------------------------------------------------------------
+# what is left of a file
 
 
 def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
@@ -651,13 +651,13 @@ def _take_out(raw: OwnTables, path: KeyPath) -> KeyPath:
     return _take_out(raw, path[:-1]) if len(path) > 1 else path
 
 
-# -- sentences ---------------------------------------------------------------------------------------------------------
+# sentences
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _NOUNS = {
     "count": "count", "g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation",
     "K": "number", "swing": "number", "duration": "time", "within": "number",
-}  # fmt: skip
+}
 """What must be positive, where it is no length."""
 _KINDS = {
     "string_type": "a text is wanted",
@@ -740,11 +740,11 @@ def _name_rule(ctx: Tables) -> Wording:
     if "max_length" in ctx:
         return Phrase("a name has at most letters and digits", limit=ctx["max_length"])
     rules = {r"\.": "a guide is written link for the link's", "/": "a sliding pair is written link or sliding",
-             "A-Z][": "a point is named by a capital letter", "": "a link or guide is named by letters"}  # fmt: skip
+             "A-Z][": "a point is named by a capital letter", "": "a link or guide is named by letters"}
     return next(rule for sign, rule in rules.items() if sign in str(ctx.get("pattern", "")))
 
 
-# -- rules from types --------------------------------------------------------------------------------------------------
+# rules from types
 
 
 def _within(kind: object, loc: KeyPath) -> type[FileTable] | None:

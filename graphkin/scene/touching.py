@@ -30,7 +30,7 @@ ROUNDING = 1e-12
 """Of the way along the guide: a smaller offset is rounding alone."""
 
 
-# -- contacts ----------------------------------------------------------------------------------------------------------
+# contacts
 
 Discs = Mapping[tuple[str, str], Disc]
 """Round outlines (m) by link and name."""
@@ -155,7 +155,7 @@ def _contact(name: str, contact: Contact, side: Side, other_side: Side, reading:
     return PlacedContact(name, (link, other), outlines, centres, radii, face, left, contact.rolling, carrier)
 
 
-# -- gears -------------------------------------------------------------------------------------------------------------
+# gears
 
 
 def gears_of(reading: Reading) -> tuple[PlacedGear, ...]:
@@ -228,7 +228,7 @@ def _axis(reading: Reading, wheel: str, carrier: str) -> str:
     return next((p for p in reading.points.get(wheel, ()) if p in held), "")
 
 
-# -- cams --------------------------------------------------------------------------------------------------------------
+# cams
 
 Line = tuple[str, complex, complex]
 """A guide of the frame on which a link slides: the key of the pair, a point of it (m), its sense."""

@@ -32,7 +32,7 @@ from graphkin.words import Phrase, Wording, listed
 __all__ = [
     "DriverRange", "Motion", "driver_range", "listed_points", "over_time", "own_slides", "solve",
     "solved_here", "structure_of", "sweep_in_blocks",
-]  # fmt: skip
+]
 
 
 def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:

@@ -176,7 +176,7 @@ def follower_inputs(cam: LawCam, turn: Array) -> Mapping[str, Array]:
     line = line / abs(line) * (-1 if motion.back else 1)
     axis = line * turned(motion.side * (start + lift.lift))
     return {"cos": axis.real, "sin": axis.imag, "slope": motion.side * cam.sense * lift.slope,
-            "second": motion.side * lift.second}  # fmt: skip
+            "second": motion.side * lift.second}
 
 
 # the study of a cam: pressure angles, curvature and undercutting, rates
@@ -239,7 +239,7 @@ def study_cam(cam: LawCam) -> CamStudy:
     return CamStudy(
         cam, most_rise, most_fall, _greatest(cam.law, 1), _greatest(cam.law, 2),
         min(convex, key=attrgetter("value"), default=None), tuple(_undercut(cam)), *_impacts(cam.law),
-    )  # fmt: skip
+    )
 
 
 def _pressures(cam: LawCam) -> tuple[AtDegree | None, AtDegree | None]:
@@ -254,7 +254,7 @@ def _pressures(cam: LawCam) -> tuple[AtDegree | None, AtDegree | None]:
 
 def _judged(cam: LawCam, rise: AtDegree | None, fall: AtDegree | None) -> tuple[bool | None, bool | None]:
     rising, falling = (None if allowed is None or most is None else most.value <= allowed * (1 + SAME)
-                       for most, allowed in zip((rise, fall), cam.allowed, strict=True))  # fmt: skip
+                       for most, allowed in zip((rise, fall), cam.allowed, strict=True))
     return rising, falling
 
 
@@ -362,4 +362,4 @@ def _impacts(law: FollowerLaw) -> tuple[tuple[AtDegree, ...], tuple[AtDegree, ..
     most = [abs(_greatest(law, order).value) for order in (1, 2)]
     impacts = tuple(jump for jump in hard if abs(jump.value) > CORNER * most[0])
     return impacts, tuple(jump for jump, harder in zip(soft, hard, strict=True)
-                          if abs(jump.value) > CORNER * most[1] and harder not in impacts)  # fmt: skip
+                          if abs(jump.value) > CORNER * most[1] and harder not in impacts)

@@ -105,7 +105,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
         None if contact.flat else abs(abs(contact.apart) - eccentricity),
         ends.stroke, swings, offset, _greatest(reach, contact, follower), None if math.isnan(here) else float(here),
         ends.low if near <= far else ends.high, (place, abs(radius)),
-    )  # fmt: skip
+    )
 
 
 def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Array, Array, Array | None, Array]:

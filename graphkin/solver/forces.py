@@ -72,7 +72,7 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
     at, normal = touch_of(motion, joint.pair)
     along: Mapping[ContactMotion, Sequence[complex | Array]] = {
         "slides": [normal], "rolls": both, "meshes": [1j * normal],
-    }  # fmt: skip
+    }
     return along[joint.pair.means], at
 
 
@@ -258,7 +258,7 @@ class Forces:
         if not unknown.any():
             return motion
         reasons: list[Wording] = [BALANCE_IDLE if here else why
-                                  for here, why in zip(unknown, motion.reasons, strict=True)]  # fmt: skip
+                                  for here, why in zip(unknown, motion.reasons, strict=True)]
         for spring, where in without_line(motion).items():
             for k in np.flatnonzero(where).tolist():
                 reasons[k] = Phrase("the two points of spring coincide in this", name=spring.name)

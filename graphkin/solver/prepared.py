@@ -555,4 +555,4 @@ def formulas(
 def by_columns(values: Mapping[Symbol, Any]) -> dict[str, Any]:
     """Values, or formulas, by the names of columns: of a vector its two components."""
     return {head: getattr(value, part) for symbol, value in values.items()
-            for head, part in zip(symbol.heads, ("real", "imag"), strict=False)}  # fmt: skip
+            for head, part in zip(symbol.heads, ("real", "imag"), strict=False)}

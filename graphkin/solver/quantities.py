@@ -357,12 +357,12 @@ def _example(symbol: Symbol, slides: Iterable[Pair]) -> Phrase:
     return Phrase(
         "write for example of kind and pin and other and pin_2",
         kind=symbol.kind, pin=pair.pin, other=pair.b, pin_2=pair.pin,
-    )  # fmt: skip
+    )
 
 
 ANGLES_AT_JOINTS: Mapping[str, Callable[[Posed, Symbol], Array]] = {
     "gamma": _gamma, "transmission": _transmission, "pressure": _pressure,
-}  # fmt: skip
+}
 """Quantities that are found from arrays alone: their joints have places in numbers."""
 VALUES: Mapping[str, Callable[[AnyPosed, Symbol], Any]] = {
     "v": _rate("v"),
@@ -422,7 +422,7 @@ def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBoun
 def _crossing(poses: Mapping[str, Pose], joint: TransmissionAngle) -> Array:
     """The angle between the two directions of a joint's transmission angle, 0 .. pi/2 (rad)."""
     first, second = (poses[end[0]].fixed(end[1]).z - poses[start[0]].fixed(start[1]).z
-                     for start, end in (joint.first, joint.second))  # fmt: skip
+                     for start, end in (joint.first, joint.second))
     with np.errstate(all="ignore"):
         across = np.conj(first) * second * (1j if joint.square else 1.0) / (np.abs(first) * np.abs(second))
     return np.asarray(np.arctan2(np.abs(across.imag), np.abs(across.real)))

@@ -20,7 +20,7 @@ ROUNDING = 5e-15
 def limit_why(
     structure: Structure, by: int, moved: Sequence[int], values: Sequence[float],
     between: tuple[float, float] | None = None,
-) -> Phrase:  # fmt: skip
+) -> Phrase:
     """The reason why a path of the drivers ends.
 
     Parameters
@@ -37,7 +37,7 @@ def limit_why(
     if isinstance(group, Dyad) and group.is_two_lines:
         _, _, ending = dyad_words(group)
     where = {"links": named_with_contact(structure, group), "ending": ending, "driver": driver.key,
-             "value": driver_text(scene, driver, values[column])}  # fmt: skip
+             "value": driver_text(scene, driver, values[column])}
     if between is None:
         return Phrase("end on the straight way there", **where)
     low, high = (driver_text(scene, driver, value) for value in between)

@@ -34,11 +34,11 @@ def measured(motion: Motion, pair: HigherPair) -> dict[str, Measure]:
     if isinstance(pair, PlacedContact):
         one, two = (motion.velocity(pair.name, link) for link in pair.bodies)
         return {"kind": "rolling" if pair.rolling else "sliding", "position": at / metres, "normal": normal,
-                "slip": (one - two) / fast, "pressure": contact_pressure(motion, pair)}  # fmt: skip
+                "slip": (one - two) / fast, "pressure": contact_pressure(motion, pair)}
     turn = motion.poses[pair.link]
     there = cam_at(pair, cam_angle(pair, turn.u))
     return {"lift": there.lift / (1.0 if pair.turns else metres), "contact": at / metres, "normal": normal,
-            "slip": slip_of(pair, there, np.asarray(turn.omega)) / fast, "pressure": there.pressure}  # fmt: skip
+            "slip": slip_of(pair, there, np.asarray(turn.omega)) / fast, "pressure": there.pressure}
 
 
 def touch_of(motion: Motion, pair: HigherPair) -> tuple[Array, Array]:
@@ -72,7 +72,7 @@ def contact_pressure(motion: Motion, contact: PlacedContact) -> dict[str, Array]
     fast = np.maximum(*map(np.abs, velocities.values())) + rates * motion.scene.size
     velocities.pop(motion.scene.frame.name, None)
     return {link: np.where(np.abs(velocity) > STANDS * fast, angle_between(normal, velocity), np.nan)
-            for link, velocity in velocities.items()}  # fmt: skip
+            for link, velocity in velocities.items()}
 
 
 def angle_between(normal: Array, way: Array) -> Array:

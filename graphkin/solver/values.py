@@ -295,7 +295,7 @@ def flywheel_of(reach: DriverRange) -> FlywheelStudy:
     return FlywheelStudy(
         wanted.on, wanted.delta, driving, driving * cycle, areas, excess, float(places[low]), float(places[high]),
         speed, inertia,
-    )  # fmt: skip
+    )
 
 
 def _without(found: Wording, wanted: Wording) -> Unsolvable:
@@ -430,7 +430,7 @@ def head(motion: Motion) -> dict[str, Json]:
         {"links": list(point.links),
          "driver": {key: unit.of(value) for (key, unit), value in zip(units, point.values, strict=True)}}
         for point in motion.passed
-    ]  # fmt: skip
+    ]
     return {
         "title": scene.question.title,
         "units": {"length": scene.units.length, **speed, "time": "s", "angle": "rad", **force},

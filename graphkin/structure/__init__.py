@@ -35,4 +35,4 @@ __all__ = [
     "cams_replaced", "driver_pair", "greatest_before", "kept_with", "leading", "links_for", "meshes_of", "mobility_of",
     "named_with_contact", "needed", "part_of", "pick", "pin_in_guide", "pins_on_circles", "regrouped",
     "replacement_told", "started", "unrolled", "without",
-]  # fmt: skip
+]

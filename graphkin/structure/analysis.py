@@ -82,7 +82,7 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     is_relative = structure.touching or any(d.relative_to != scene.frame.name for d in scene.drivers)
     if is_relative and (twice := driven_twice(structure)):
         said = (Phrase("slides wheels and other drivers give", driver=d.key, link=d.link, other=d.relative_to)
-                for d in twice)  # fmt: skip
+                for d in twice)
         where = Phrase("status mobility")
         raise Unsolvable("mobility", *(Problem(where, phrase, "drive another pair") for phrase in said))
     elements = _in_order(structure, _nodes(structure), unknowns, given, {scene.frame.name}, turned)
@@ -94,7 +94,7 @@ def mobility_of(scene: Mechanism) -> Mobility:
     return _placed(scene).mobility
 
 
-# -- what holds the links ----------------------------------------------------------------------------------------------
+# what holds the links
 
 
 def _placed(scene: Mechanism) -> Structure:
@@ -179,7 +179,7 @@ def _equations(structure: Structure, turned: Mapping[str, TurnedBy] | None = Non
     for relation in structure.relations:
         slides = [structure.slide(name) for kind, name in relation.terms if kind == "travel"]
         add(*((name, "t") for kind, name in relation.terms if kind == "angle"),
-            *(side for s in slides for side in ((s.a, "xy"), (s.b, "xyt"))))  # fmt: skip
+            *(side for s in slides for side in ((s.a, "xy"), (s.b, "xyt"))))
     for driver in structure.drivers:
         driven, base = ("t", "t") if driver.turns else ("xy", "xyt")
         link, other = driver.links
@@ -189,7 +189,7 @@ def _equations(structure: Structure, turned: Mapping[str, TurnedBy] | None = Non
     return rows
 
 
-# -- what is solved together -------------------------------------------------------------------------------------------
+# what is solved together
 
 N = TypeVar("N", bound=Hashable)
 
@@ -302,7 +302,7 @@ def _in_order(
 _KINDS: Mapping[str, tuple[DyadKind, Literal["as found", "the other", "as written", "what slides"]]] = {
     "RRR": ("RRR", "as written"), "PRP": ("PRP", "as written"), "RPR": ("RPR", "what slides"),
     "RRP": ("RRP", "as found"), "PRR": ("RRP", "the other"), "RPP": ("RPP", "as found"), "PPR": ("RPP", "the other"),
-}  # fmt: skip
+}
 """Of three pairs in their order the kind of dyad, and which of its bodies is called the first."""
 _SIDES = (True, True), (True, False), (False, True)  # of the inner and the outer pairs of two bodies
 
@@ -442,7 +442,7 @@ def _order(bodies: Sequence[Body], pairs: Sequence[Pair]) -> int:
     return max(3, most, contour if contour >= 4 else 0)
 
 
-# -- driven triangles, and what rolls at the scene's own position ------------------------------------------------------
+# driven triangles, and what rolls at the scene's own position
 
 
 def _triangles(structure: Structure, group: LargerGroup, taken: set[str]) -> tuple[DrivenTriangle, ...]:
@@ -565,7 +565,7 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
     return _in_order(structure, nodes, rows, given, placed, {})
 
 
-# -- why there is no order of solution ---------------------------------------------------------------------------------
+# why there is no order of solution
 
 
 def _wrong_count(structure: Structure) -> Problem:

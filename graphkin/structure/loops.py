@@ -168,7 +168,7 @@ def _next_block(waiting: Sequence[Loop], ties: Mapping[str, str], known: set[Coo
     return list(waiting)
 
 
-# -- as the structure has them -----------------------------------------------------------------------------------------
+# as the structure has them
 
 Passage = tuple[str, Pair, str]
 """From a link by a pair to another."""
@@ -216,7 +216,7 @@ def _over_known(structure: Structure, start: str, end: str, known: Sequence[Pair
     """The shortest path over links placed before."""
     placed = {n for pair in known for n in pair.links} | {structure.scene.frame.name}
     shared = [Pair(p, a, b) for p, names in structure.hinges.items() for a in names for b in names
-              if a < b and {a, b} <= placed]  # fmt: skip
+              if a < b and {a, b} <= placed]
     paths: dict[str, list[Passage]] = {start: []}
     queue = [start]
     while end not in paths:
@@ -279,7 +279,7 @@ def _named(arrows: Sequence[LoopArrow]) -> tuple[LoopArrow, ...]:
     )
 
 
-# -- as a book writes them ---------------------------------------------------------------------------------------------
+# as a book writes them
 
 
 def _chosen(structure: Structure) -> list[Loop]:
@@ -309,7 +309,7 @@ def _between(structure: Structure, name: str, tail: str, tip: str) -> list[LoopA
                        name=tail, other=tip)
 
 
-# -- in numbers --------------------------------------------------------------------------------------------------------
+# in numbers
 
 
 Matrix = NDArray[np.float64]
@@ -360,7 +360,7 @@ def loops_in_numbers(
             replace(loop, arrows=tuple(
                 replace(a, axis=axes[a.link], travel=travels[a.slide] if a.slide else 1.0) for a in loop.arrows
             )) for loop in together
-        ]  # fmt: skip
+        ]
         solved = _solved(here, axes, travels, turning, known)
         if solved is None:
             break
@@ -405,7 +405,7 @@ def _solved(
     values = tuple(travels[name] if kind == "travel" else cmath.phase(axes[name]) for kind, name in unknowns)
     with_roots = tuple(replace(loop, root=_root(loop, axes)) for loop in loops)
     return LoopBlock(with_roots, unknowns, values, matrix, velocity, acceleration,
-                     tuple(map(float, rates)), tuple(map(float, second)))  # fmt: skip
+                     tuple(map(float, rates)), tuple(map(float, second)))
 
 
 def _components(vectors: NDArray[np.complex128]) -> Matrix:
@@ -429,7 +429,7 @@ def _right_side(loops: Sequence[Loop], turning: Turning, rates: Rates, order: in
     return left_open
 
 
-# -- the root ---------------------------------------------------------------------------------------------------------
+# the root
 
 
 def _root(loop: Loop, axes: Mapping[str, complex]) -> Root | None:

@@ -156,7 +156,7 @@ class Driven:
             lifted=driver if isinstance(driver, LawCam) else None, explicit=driver.given,
             outside=frozenset((*self.pair.links, *driver.links, *driver.through)).union(
                 *(step.links for step, _ in self.ahead)) - {self.link},
-        )  # fmt: skip
+        )
 
 
 DyadKind = Literal["RRR", "RRP", "RPR", "PRP", "RPP"]
@@ -219,7 +219,7 @@ class Dyad:
             bodies=(first, second), members=members, pairs=pairs, outer=outer, joints=joints, drivers=drivers,
             all_pairs=(*pairs, *(joint.pair for joint in joints)), outside=frozenset(hung.difference(members)),
             is_two_lines=self.kind in ("PRP", "RPP"),
-        )  # fmt: skip
+        )
 
 
 @dataclass(frozen=True)
@@ -341,7 +341,7 @@ class Structure:
             dyads={i: e for i, e in enumerate(elements) if isinstance(e, Dyad)},
             larger_groups=tuple(e for e in elements if isinstance(e, LargerGroup)),
             place_of={name: i for i, e in enumerate(elements) for name in e.members},
-        )  # fmt: skip
+        )
 
     def __getstate__(self) -> dict[str, Any]:
         return self.__dict__ | {"kept": {}}
@@ -357,7 +357,7 @@ class Structure:
         drivers = self.scene.drivers
         moved = [values.get(d.key, d.values[0]) - d.values[0] for d in drivers]
         followed = {f.key: f.values[0] + added_up(r * change for r, change in zip(f.ratios, moved, strict=True))
-                    for f in self.followers}  # fmt: skip
+                    for f in self.followers}
         return {**values, **followed}
 
     @cached_property
@@ -441,7 +441,7 @@ def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[P
     return Pair(common[0], driver.link, driver.relative_to) if common else None
 
 
-# -- the part of a mechanism that leads to what is asked, and nothing more ---------------------------------------------
+# the part of a mechanism that leads to what is asked, and nothing more
 
 
 def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:

@@ -67,7 +67,7 @@ def pins_on_circles(scene: Mechanism, poses: Poses, values: Mapping[str, float])
     return replace(
         _standing(scene, poses, values), frame=links.pop(scene.frame.name), links=tuple(links.values()),
         slides=tuple(slides), slots=tuple(s for s in scene.slots if s.bar in links),
-    )  # fmt: skip
+    )
 
 
 def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Mechanism:
@@ -75,7 +75,7 @@ def _standing(scene: Mechanism, poses: Poses, values: Mapping[str, float]) -> Me
     lying = (link for link in scene.links if link.name in poses)
     places = {p: poses[link.name].place(z) for link in lying for p, z in link.points.items()}
     return replace(scene, drivers=tuple(d.at_value(values[d.key]) for d in scene.drivers),
-                   sketch={**scene.sketch, **places}, drawn={})  # fmt: skip
+                   sketch={**scene.sketch, **places}, drawn={})
 
 
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
@@ -159,7 +159,7 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
                 middle = 0j
             links[cam.link] = replace(link, points={**link.points, centre: middle / turn})
             bar = PlacedLink(f"{centre}{point}", {centre: 0j, point: complex(1.0 / abs(curvature))}, (centre, point),
-                             OWN_AXIS)  # fmt: skip
+                             OWN_AXIS)
             made[bar.name] = bar
             slots.append(CircularSlot(bar.name, cam.link, centre, 1.0 / abs(curvature), bar.name, point))
             continue
@@ -170,7 +170,7 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
         here, links=(*(links[link.name] for link in scene.links), *made.values()), slides=(*scene.slides, *pins),
         slots=(*scene.slots, *slots), higher_pairs=(*scene.higher_pairs, *contacts), sketch={**here.sketch, **places},
         instead_of=scene,
-    )  # fmt: skip
+    )
 
 
 def pin_in_guide(

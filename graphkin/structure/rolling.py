@@ -124,7 +124,7 @@ def followers_of(
         if ratios is None or _ratios(base, coordinate, count) is not None:
             continue
         rate, second = (added_up(float(r) * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True))
-                        for k in (1, 2))  # fmt: skip
+                        for k in (1, 2))
         kind, name = coordinate
         start = _start(scene, name)
         follower = Driver(name, frame, start or 0.0, rate, second, ratios=tuple(map(float, ratios)), through=through)

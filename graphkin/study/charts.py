@@ -284,7 +284,7 @@ class Panel:
 def panel_of(
     axis: Axis, quantity: Symbol, curve: Array, extremes: Sequence[Extreme], bounded: bool = True,
     dots: Array = EMPTY, laid_over: Array = EMPTY, jumps: Sequence[int] = (),
-) -> Panel:  # fmt: skip
+) -> Panel:
     """The panel of a quantity over an axis, in units of the figure; the span of a force includes zero.
 
     Parameters
@@ -302,19 +302,19 @@ def panel_of(
     marked = tuple(
         (e, float(place), float(value)) for e, place, value in zip(extremes, axis.at(places), shown, strict=True)
         if span[0] <= value <= span[1]
-    )  # fmt: skip
+    )
     allowed, falling = _allowed(quantity, axis.scene)
     title = lettered(axis.scene, quantity) + f" ({quantity.unit(axis.scene.units).written})"
     return Panel(
         quantity, title, curve, dots, marked, span, allowed=allowed, falling=falling, laid_over=laid_over,
         jumps=tuple(jumps),
-    )  # fmt: skip
+    )
 
 
 def motion_panel(
     turn: TurnStudy, axis: DriverAxis, quantity: Symbol, dots: Sequence[tuple[float, float]] = (),
     laid_over: Sequence[tuple[float, float]] = (),
-) -> Panel:  # fmt: skip
+) -> Panel:
     """The panel of a quantity of the motion over the driver.
 
     Parameters
@@ -326,7 +326,7 @@ def motion_panel(
     curve = axis.curve(quantity, axis.offsets, course_of(quantity, turn.reach, axis.motion))
     extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
     panel = panel_of(axis, quantity, curve, extremes, turn.reach.full or quantity.is_position,
-                     axis.points(quantity, dots), axis.points(quantity, laid_over))  # fmt: skip
+                     axis.points(quantity, dots), axis.points(quantity, laid_over))
     return replace(panel, unbounded=traced is not None and traced.unbounded)
 
 
@@ -383,7 +383,7 @@ def figure_name(quantities: Sequence[Symbol]) -> str:
 def chart_page(
     axis: Axis, panels: Sequence[Panel], facts: Sequence[Words], language: str, limits: Sequence[float] = (),
     title: Words = "", **metadata: object,
-) -> chart.ChartPage:  # fmt: skip
+) -> chart.ChartPage:
     """A page with the panel of a quantity, or with those of an output and its rates below each other.
 
     Parameters
@@ -418,7 +418,7 @@ def chart_page(
         WIDTH, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title=f"{of}: {scene.question.title_in(language)}",
         desc=" ".join(map(str, facts)) or of, lang=language,
         metadata={"scene": scene.name, "units": scene.units.length, **about, **metadata},
-    )  # fmt: skip
+    )
 
 
 def draw_panel(axes: chart.Axes, panel: Panel, axis: Axis, language: str, limits: Sequence[float] = ()) -> None:

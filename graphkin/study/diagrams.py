@@ -75,7 +75,7 @@ def diagrams(
         pages[charts.figure_name(rates_of(quantity))] = page
     known = turn.reach.known
     points = [(point, link) for point, link in coupler_points(turn.scene)
-              if np.isfinite(known.position(point, link)).all()]  # fmt: skip
+              if np.isfinite(known.position(point, link)).all()]
     if points:  # of a mechanism that is singular throughout there are none
         values = dict(zip((d.key for d in turn.scene.drivers), known.values[0].tolist(), strict=True))
         links = [Symbol("theta", link=link.name) for link in turn.scene.links]
@@ -246,7 +246,7 @@ def curve_page(sheet: Sheet, axis: charts.DriverAxis, point: str, link: str, lan
     line = Polyline(tuple(on_page(complex(z) * mm) for z in path), Stroke(0.5))
     title = rich_text(Phrase("curve of point", point=sign(point)), language)
     group = Group((line, *(Circle(z, DOT, strokes.BLACK, Stroke(0.25)) for z, _ in marks)), id=f"curve-{point}",
-                  classes=("curve",), title=title.plain())  # fmt: skip
+                  classes=("curve",), title=title.plain())
     whole = joined((background(bare_mechanism(sheet, page.letters)), Piece({"answers": (group,)}, labels)))
     content = (ink_box(whole.drawn) or Box.around(line.points)).grown(8.0)
     page = page.wide_enough(content.width)

@@ -96,7 +96,7 @@ class Equations:
             if pair.turns:
                 one, two = (structure.links[link].points[pair.point] for link in (pair.a, pair.b))
                 self.lines += [(row + k, pair.a, one, pair.b, two, self.frame, along, 0.0)
-                               for k, along in enumerate((1 + 0j, 1j))]  # fmt: skip
+                               for k, along in enumerate((1 + 0j, 1j))]
             else:
                 self._along(row, pair, 1j * pair.guide.direction)
                 held = numbers.arg(pair.guide.direction) + numbers.arg(pair.turn)
@@ -154,7 +154,7 @@ class Equations:
         return (
             x + rx, y + ry, at.rate[k] - w * ry, at.rate[k + 1] + w * rx,
             at.second[k] - push * ry - w * w * rx, at.second[k + 1] + push * rx - w * w * ry,
-        )  # fmt: skip
+        )
 
     def under(self, at: Solution, point: str, link: str) -> Values:
         """The place of a link that lies under a pin, in its own axes."""

@@ -142,7 +142,7 @@ def measured(
         xs, es = _binned(x, error, samples)
         stated = _binned(x, bound, samples)[1]
         warns_from, refuses_from = (next((e for e, here in zip(x, at, strict=True) if here), None)
-                                    for at in (warned, refused))  # fmt: skip
+                                    for at in (warned, refused))
         made.append(replace(law, x=xs, error=es, warns_from=warns_from, refuses_from=refuses_from, bound=stated))
     return tuple(made)
 
@@ -181,7 +181,7 @@ def laws_table(singularities: Sequence[Singularity]) -> Table:
     rows = [
         (s.key, s.distance, law.key, x, error, law.slope, law.theory, law.warns_from, law.refuses_from)
         for s in singularities for law in (*s.laws, *s.growth) for x, error in zip(law.x, law.error, strict=True)
-    ]  # fmt: skip
+    ]
     return Table.of(heads, rows, ("", "", "", ".4g", ".3g", ".2f", ".3g", ".3g", ".3g"))
 
 
@@ -224,7 +224,7 @@ def lessons(singularities: Sequence[Singularity]) -> tuple[Phrase, ...]:
             "lesson digits",
             squares=in_powers(height["height by squares"].worst), heron=in_powers(height["height by Heron"].worst),
             arccos=in_powers(angle["angle by arccos"].worst), atan2=in_powers(angle["angle by atan2"].worst),
-        ))  # fmt: skip
+        ))
     if dead:
         pencil, doubles = dead["velocity pencil"], dead["velocity closed form"]
         at = next((x for x in pencil.x if x < 0.15), pencil.x[0])
@@ -232,7 +232,7 @@ def lessons(singularities: Sequence[Singularity]) -> tuple[Phrase, ...]:
         phrases.append(Phrase(
             "lesson pencil", times=in_powers(by_pencil / in_doubles), distance=in_powers(at),
             pencil=in_powers(by_pencil), doubles=in_powers(in_doubles),
-        ))  # fmt: skip
+        ))
     if lines := by_key.get("parallel lines"):
         place, through = lines["centre place pencil"], lines["centre velocity pencil"]
         phrases.append(Phrase("lesson centres", place=in_powers(place.worst), velocity=in_powers(through.worst)))
@@ -286,7 +286,7 @@ def _page(shown: Sequence[Singularity], every: Sequence[Singularity], language: 
     return chart.ChartPage(
         WIDTH, HEIGHT, paint, title=title, desc=f"{facts}: {names}", lang=language,
         metadata={"study": "stability", "singularities": [s.key for s in shown]},
-    )  # fmt: skip
+    )
 
 
 def _draw(figure: chart.Figure, singularity: Singularity, corner: complex, language: str) -> None:

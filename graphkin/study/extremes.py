@@ -409,7 +409,7 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
         [turn for turn in c.pieces.turns(c.k, c.quantity.is_position or c.quantity.is_vector)
          if turn.at_seam or len(way.inside(np.array([turn.place])))]
         for c in curves
-    ]  # fmt: skip
+    ]
     offsets = _polished(way, curves, turns)
     # only what is printed takes all its digits
     values = _values(reach, [c.quantity for c in curves], offsets, extended=True)
@@ -418,7 +418,7 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extrem
         ends: list[list[Extreme]] = [[], []]
         if not reach.full and curve.quantity.is_position:
             ends = [[Extreme("end", at, driver_value(reach, at), way.end(curve, k))] if limited else []
-                    for k, (at, limited) in enumerate(zip((low, high), reach.limited, strict=True))]  # fmt: skip
+                    for k, (at, limited) in enumerate(zip((low, high), reach.limited, strict=True))]
         inner = []
         for turn, place, value in zip(own, places.tolist(), fine.tolist(), strict=True):
             # at a jump both values stand at one place

@@ -163,7 +163,7 @@ def _away_inside(
     before, here, after = size[:-2], size[1:-1], size[2:]
     peaks = np.flatnonzero((here > before) & (here > after) & (here > PEAK * np.nanmedian(size)))
     tops = [max(axis.extremes(quantity, offsets[k : k + 3], values[k : k + 3]), key=lambda e: abs(e.value)).offset
-            for k in peaks.tolist()]  # fmt: skip
+            for k in peaks.tolist()]
     near, known = UNKNOWN_HERE * (high - low), [] if axis.reach.full else [low]
     for place in (*offsets[~np.isfinite(values)].tolist(), *tops):
         if any(abs(math.remainder(place - other, high - low)) <= near for other in known):
@@ -227,7 +227,7 @@ def polar_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.Cha
         charts.WIDTH, charts.TOP + side + 16.0, paint, title=f"{quantity}: {scene.question.title_in(language)}",
         desc=str(facts[0]), lang=language,
         metadata={"scene": scene.name, "units": unit.text, "quantity": str(quantity)},
-    )  # fmt: skip
+    )
 
 
 MOMENT_TOP, MOMENT_TALL, ENERGY_LOW, ENERGY_GAP = 46.0, 100.0, 62.0, 12.0  # mm
@@ -257,7 +257,7 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
     def paint(figure: chart.Figure) -> None:
         chart.add_words(figure, *charts.heading(scene, title, facts, language))
         entries = [(chart.look(chart.SOLID_AND_DASHED[0]), word("needed moment", language)),
-                   (chart.look(DRIVING), word("driving moment", language))]  # fmt: skip
+                   (chart.look(DRIVING), word("driving moment", language))]
         chart.add_legend(figure, complex(charts.LEFT, MOMENT_TOP - 9.5), entries)
         box = Box(charts.LEFT, MOMENT_TOP, charts.WIDTH - charts.RIGHT, MOMENT_TOP + MOMENT_TALL)
         axes = chart.add_panel(figure, box, "moments", sign("M") + f" ({moment})")
@@ -297,7 +297,7 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
         title=f"{title}: {scene.question.title_in(language)}", lang=language,
         desc=spoken_words(spaced(word("list semicolon", language), facts), language),
         metadata={"scene": scene.name, "units": moment, "flywheel": study.link},
-    )  # fmt: skip
+    )
 
 
 def _joined(areas: Mapping[tuple[float, float], float], cycle: float) -> dict[tuple[float, float], float]:

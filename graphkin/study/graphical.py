@@ -235,7 +235,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         sign("μ", str(given)[0]) + f" = {number(per_y)} {per_mm(of_given.written)}",
         sign("μ", "t") + f" = {number(chords.per_x)} s/mm", sign("H") + f" = {number(chords.pole)} mm",
         sign("μ", str(result)[0]) + f" = {number(per_found)} {per_mm(of_result.written)}",
-    )  # fmt: skip
+    )
     accuracy = Phrase(f"graphical {chords.way} off", error=f"{100 * chords.off:.2g}")
     facts: list[Words] = [spaced(",  ", scales), say(accuracy, language)]
     lines = [runs for fact in facts for runs in wrapped(fact, 3.0, WIDTH - 2 * MARGIN)]
@@ -285,7 +285,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         spoken_words(spaced(" ", facts), language), language,
         {"scene": scene.name, "units": scene.units.length, "given": str(chords.given), "result": str(chords.result),
          "pole": chords.pole, "scales": {"given": per_y, "time": chords.per_x, "result": per_found}},
-    )  # fmt: skip
+    )
 
 
 def chords_table(chords: Chords, reach: DriverRange) -> bytes:
@@ -299,7 +299,7 @@ def chords_table(chords: Chords, reach: DriverRange) -> bytes:
         Column(str(chords.result), measured, unit.text),
         Column("exact", exact, unit.text),
         Column("difference", measured - exact, unit.text),
-    ))  # fmt: skip
+    ))
     return table.csv().encode("utf-8-sig")
 
 

@@ -161,7 +161,7 @@ class TimeStudy:
             return replace(panel_of(axis, quantity, curve, extremes, bounded=not away), unbounded=away)
 
         return {figure_name(quantities): chart_page(axis, [*map(panel, quantities)], facts, language, over="time")
-                for quantities in self.groups}  # fmt: skip
+                for quantities in self.groups}
 
     def _fact(self, language: str) -> str:
         """The drivers, and the span of time."""

@@ -123,7 +123,7 @@ def all_that_moves(structure: Structure) -> tuple[Symbol, ...]:
 def motion_table(
     scene: Mechanism, shown: Sequence[Symbol], sizes: bool, first: int, values: Array, parts: Parts, status: Words,
     why: Words, times: Array | None = None,
-) -> Table:  # fmt: skip
+) -> Table:
     """A row for each position of a motion, numbered from ``first`` + 1 on.
 
     Parameters

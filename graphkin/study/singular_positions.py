@@ -173,7 +173,7 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
         return Answer((part if math.isfinite(part) else math.nan,), "sharp crossing" in remarks)
 
     computed = [ErrorLaw(f"{what} closed form", theory=slope, window=NEARBY)
-                for what, slope in (("place", -0.5), ("velocity", -1.0), ("acceleration", -1.0))]  # fmt: skip
+                for what, slope in (("place", -0.5), ("velocity", -1.0), ("acceleration", -1.0))]
     newton = ErrorLaw("velocity Newton", theory=-1.0, window=NEARBY)
     board = ErrorLaw("velocity exact drawing", theory=-1.0, window=NEARBY)
     # a rate goes as one over the half chord h of the crossing: an error u of it is one of 2 u in the square of h, and
@@ -471,7 +471,7 @@ def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
 
     laws = measured([ErrorLaw(name, theory=-1.0, window=BESIDE_PIVOT) for name in BAR_LAWS], x, map(closed, x), samples)
     growing = [ErrorLaw(f"size {what}", theory=slope, window=(1e-12, 0.03), lost=math.inf)
-               for what, slope in (("Coriolis", -1.0), ("bar", -2.0))]  # fmt: skip
+               for what, slope in (("Coriolis", -1.0), ("bar", -2.0))]
     growth = measured(growing, x, sizes, samples)
     coriolis, bar = (true_minus(f"{law.slope:.2f}") for law in growth)
     fates = _fates("fate near ground", doubles=laws[2].worst, solved=max(stated, default=math.nan))
@@ -511,7 +511,7 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
     few = x[::samples]
     in_doubles = [ErrorLaw(name, theory=slope, window=BESIDE_PIVOT, lost=lost)
                   for name, slope, lost in zip(BAR_LAWS, (-1.0, -2.0, -3.0), (LOST, LOST, math.inf), strict=True)
-                  ]  # fmt: skip
+                  ]
     board = ErrorLaw("acceleration bar drawn", theory=-3.0, window=(1e-8, 0.1), lost=math.inf)
     laws = (
         *measured(in_doubles, x, map(closed, x), samples),
@@ -585,7 +585,7 @@ def drawing_scale(mp: MPContext, samples: int = 1) -> Singularity:
         scales = Scales(*(s * times for s in (old.length, old.velocity, old.acceleration)))
         larger = replace(planned, scales=scales)
         return Answer([predict(larger, "pencil", tools, together=False)[symbol].deviation / right
-                       for tools in (POINTS_ONLY, scene.question.sheet.tools)])  # fmt: skip
+                       for tools in (POINTS_ONLY, scene.question.sheet.tools)])
 
     stated = ErrorLaw("pencil points", theory=-1.0, lost=1.0), ErrorLaw("pencil all", lost=1.0)
     laws = measured(stated, sizes, map(errors, sizes))
@@ -594,7 +594,7 @@ def drawing_scale(mp: MPContext, samples: int = 1) -> Singularity:
         "fate scale", small=f"{sizes[0]:.2g}", large=f"{sizes[-1]:.4g}",
         points_small=in_powers(points.error[0]), points_large=in_powers(points.error[-1]),
         all_small=in_powers(all_tools.error[0]), all_large=in_powers(all_tools.error[-1]),
-    )  # fmt: skip
+    )
     return Singularity("small scale", "crank on paper", laws, (fate,))
 
 

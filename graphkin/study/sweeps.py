@@ -150,7 +150,7 @@ class FollowedDesign:
             motion = self.reach.motion(self.reach.table_offsets(n, np.arange(first, last)))
         reach, nothing = None if times is not None else self.reach, np.full(len(motion), np.nan)
         parts = tuple((nothing,) * len(w.heads) if w.is_load and self.among and self.unloaded is not None
-                      else parts_of(w, reach, motion) for w in self.watched)  # fmt: skip
+                      else parts_of(w, reach, motion) for w in self.watched)
         motion = self._known(motion)
         return self._rows(first, motion.values, parts, motion.status, motion.why, times)
 

@@ -305,7 +305,7 @@ _BLOCKS = {
     "rotating guide bar (Whitworth)": "rotating block", "swinging guide bar": "oscillating block",
     "guide bar at a change point": "block at a change point",
     "guide bar without a full turn": "block without a full turn",
-}  # fmt: skip
+}
 """Names of guide bars where it is the block that is pivoted to the frame."""
 
 
@@ -525,5 +525,5 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: Stretch) -> list[Stret
         # with their middles in (-pi, pi]
         shifts = (2 * np.pi * float(np.ceil(((low + high) / 2 - np.pi - 1e-9) / (2 * np.pi))) for low, high in parts)
         return [Stretch(low - shift, high - shift, (True, True))
-                for (low, high), shift in zip(parts, shifts, strict=True)]  # fmt: skip
+                for (low, high), shift in zip(parts, shifts, strict=True)]
     return [Stretch(low, high, (low != first, high != last)) for low, high in parts]

@@ -27,7 +27,7 @@ def _flywheel(turn: TurnStudy) -> dict[str, Json]:
         {"from": _driver(turn.scene, float(turn.reach.value(np.array(first)))),
          "to": _driver(turn.scene, float(turn.reach.value(np.array(last)))), "work": work / units.newtons}
         for (first, last), work in found.areas.items()
-    ]  # fmt: skip
+    ]
     return {
         "flywheel": {
             "on": found.link,
@@ -112,7 +112,7 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
              **known(quantity.unit(turn.scene.units).of(e.value), "grows without bound there")}
             for e in extremes
         ]} for name, (quantity, extremes) in found.items()
-    }}  # fmt: skip
+    }}
 
 
 def known(value: float, why: str) -> dict[str, float | str | None]:

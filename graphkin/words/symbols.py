@@ -190,7 +190,7 @@ def _notation(atoms: Iterable[Atom]) -> str:
     return written
 
 
-# -- the notation of the tables of words -------------------------------------------------------------------------------
+# the notation of the tables of words
 
 
 def noted(markup: str) -> RichText:

@@ -165,7 +165,7 @@ def test_the_pull_of_a_spring_is_what_its_numbers_come_to(length):
     scene = read("rocker-return-spring").replace("links.1.length", length)
     whole = "".join(ET.fromstring(draw(scene).figures["forces"].content("svg")).itertext()).replace("\u00a0", " ")
     start, rate, now, free, pull = map(Decimal, re.search(
-        r"= ([\d.]+) \+ ([\d.]+) × \(([\d.]+) − ([\d.]+)\) = ([\d.]+)", whole).groups())  # fmt: skip
+        r"= ([\d.]+) \+ ([\d.]+) × \(([\d.]+) − ([\d.]+)\) = ([\d.]+)", whole).groups())
     assert abs(start + rate * (now - free) - pull) <= Decimal("0.5") * Decimal(1).scaleb(pull.as_tuple().exponent)
 
 
@@ -180,9 +180,9 @@ def test_with_a_pencil_given_lengths_stay_given_in_every_sum(name):
         for q, w in link.points.items()
     }
     arms = [(step.points, rate_sum(sheet, step, units=False).split(" = ")[0].split(" / ")[-1])
-            for step in sheet.steps if step.reason == "rate" and not step.held]  # fmt: skip
+            for step in sheet.steps if step.reason == "rate" and not step.held]
     sizes = [step.size for step in sheet.steps
-             if isinstance(step, VectorStep) and step.size and step.size.rule == "rate"]  # fmt: skip
+             if isinstance(step, VectorStep) and step.size and step.size.rule == "rate"]
     arms += [(size.factor, factors_of(sheet, size)[-1]) for size in sizes if not isinstance(size.factor, Symbol)]
     told = [(given[frozenset(bar)], float(arm)) for bar, arm in arms if frozenset(bar) in given]
     assert len(told) >= 5
@@ -222,11 +222,11 @@ def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_ar
 def test_sizes_relative_to_a_held_link_stand_in_numbers():
     sheet, _ = seen_from_a_held_link()
     lines = [repr(line).replace("\u00a0", " ") for line in written_lines(sheet, notation_of(sheet, "chinese"), "en")
-             if not isinstance(line, Equation)]  # fmt: skip
+             if not isinstance(line, Equation)]
     told = [part for line in lines for part in line.split(";  ")]
     by_rates = [line for line in told if "(4)}_{D3B3}" in line]
     assert ["3.33 × 27.861 = 92.777 mm/s,  $⊥DB$", "3.33² × 27.861 = 308.95 mm/s²,  $D→B$",
-            "37.9 × 27.861 = 1055.9 mm/s²,  $⊥DB$"] == [line.split(" = ", 2)[2] for line in by_rates]  # fmt: skip
+            "37.9 × 27.861 = 1055.9 mm/s²,  $⊥DB$"] == [line.split(" = ", 2)[2] for line in by_rates]
     assert "$a^{n(4)}_{D5C}$ = 3.33² × 80.645 = 894.26 mm/s²" in told
     assert "$a^{k(4)}_{B3B5}$ = 2 × 3.33 × 128.65 = 856.81 mm/s²" in told
 
@@ -246,11 +246,11 @@ def test_what_a_cylinder_is_pushed_to_is_given_and_not_measured():
 def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(name):
     sheet = draft(mechanism_of(name), instrument=pencil(Tools(), 3))
     said = {step.link: rate_sum(sheet, step).rsplit(" = ", 1)[-1].split()[0] for step in sheet.steps
-            if step.reason == "rate" and step.kind == "omega"}  # fmt: skip
+            if step.reason == "rate" and step.kind == "omega"}
     sizes = [step.size for step in sheet.steps
-             if isinstance(step, VectorStep) and step.size and step.size.rule == "rate"]  # fmt: skip
+             if isinstance(step, VectorStep) and step.size and step.size.rule == "rate"]
     used = [(said[sheet.rates["omega"][size.links[0]].same_as or size.links[0]], factors_of(sheet, size)[size.twice])
-            for size in sizes if size.rate == "omega" and sheet.rates["omega"][size.links[0]].vector]  # fmt: skip
+            for size in sizes if size.rate == "omega" and sheet.rates["omega"][size.links[0]].vector]
     assert used
     assert [] == [(one, other) for one, other in used if one != other]
 
@@ -329,12 +329,12 @@ def superposed_twice():
     found = tuple(zip(names, right.tolist(), strict=True))
     way, ref = Direction("along", ("A", "B")), PointRef("A")
     last = Superposed("divide", "open ends", "velocity", number=9, found=found, closing=("3", "4"), apart=apart,
-                      ways=(way, way), between=((ref, ref),) * 2, less=((), ()))  # fmt: skip
+                      ways=(way, way), between=((ref, ref),) * 2, less=((), ()))
     # others before them, of the same polygon and of the other
     trials = [(1, tuple((name, 9.0) for name in names))] * 2
     trials += [(i, tuple(zip(names, row, strict=True))) for i, row in enumerate(tried.tolist(), 1)]
     before = tuple(RateTrial("trial", "polygon", "velocity", number=i, trial=trial, assumed=assumed)
-                   for i, (trial, assumed) in enumerate(trials))  # fmt: skip
+                   for i, (trial, assumed) in enumerate(trials))
     return SimpleNamespace(before=lambda step: before[: step.number], instrument=EXACT.name), last, right, tried
 
 
@@ -464,7 +464,7 @@ def test_a_step_tells_a_measured_rate_as_its_quotient_gives_it(name):
     assert quotients == {key: told[key] for key in quotients}
 
 
-# -- rates of links that a driver turns from another moving link -------------------------------------------------------
+# rates of links that a driver turns from another moving link
 
 ARM = {
     "frame": {"points": {"A": [0, 0]}},
@@ -477,7 +477,7 @@ ARM = {
         {"link": "2", "relative_to": "1", "angle": 50, "omega": -3, "alpha": -1.5},
         {"slide": "3", "travel": 260, "velocity": 40, "acceleration": -7},
     ],
-}  # fmt: skip
+}
 """A second arm on a first, driven from it in the opposite sense, and a slide on the second."""
 
 
@@ -492,14 +492,14 @@ ON_A_BLOCK = {  # a dyad of blocks on a fixed guide and on a crank; a driver tur
               "3": {"points": ["C"], "on": "1"}},
     "driver": {"link": "2", "angle": -50, "relative_to": "3", "omega": 3},
     "sketch": {"C": [30, 65]},
-}  # fmt: skip
+}
 IN_A_FOUR_BAR = {
     "frame": {"points": {"A": [0, 0], "D": [200, 0]}},
     "links": {"1": {"points": ["A", "B"], "length": 100}, "2": {"points": ["B", "C"], "length": 150},
               "3": {"points": ["D", "C"], "length": 120}},
     "driver": {"link": "2", "relative_to": "1", "angle": -50, "omega": 2, "alpha": 0.5},
     "sketch": {"B": [60, 80], "C": [190, 120]},
-}  # fmt: skip
+}
 
 
 def lines_of(scene, language="en"):
@@ -524,7 +524,7 @@ def test_the_steps_tell_the_sum_of_rates_next_before_the_first_vector_that_it_gi
     sheet = draft(mechanism_of(ARM))
     said = [say(step.phrase, language) for step in sheet.steps]
     omega, alpha = (said.index(one) for one in ("ω_2 = ω_1 + ω_21 = 1 − 3 = −2 rad/s",
-                                                "α_2 = α_1 + α_21 = 4 − 1.5 = 2.5 rad/s²"))  # fmt: skip
+                                                "α_2 = α_1 + α_21 = 4 − 1.5 = 2.5 rad/s²"))
     assert ["v_C/B", "an_C/B"] == [str(sheet.steps[i + 1].symbol) for i in (omega, alpha)]
 
 
@@ -550,7 +550,7 @@ def test_a_driver_that_turns_the_known_link_from_the_other_is_taken_off():
                   "3": {"points": ["T", "U"], "length": 200}},
         "driver": [{"link": "1", "angle": 30, "omega": 1}, {"slide": "2", "travel": 260, "velocity": 40},
                    {"link": "2", "relative_to": "3", "angle": -50, "omega": 3}],
-    }  # fmt: skip
+    }
     assert "$ω_{3}$ = $ω_{2}$ − $ω_{23}$ = 1 − 3 = −2 rad/s" in lines_of(scene)
     assert check(scene).ok
 
@@ -558,7 +558,7 @@ def test_a_driver_that_turns_the_known_link_from_the_other_is_taken_off():
 @pytest.mark.parametrize(("scene", "line"), [
     (ON_A_BLOCK, "$ω_{1}$ = $ω_{3}$ = $ω_{2}$ − $ω_{23}$ = 0 − 3 = −3 rad/s"),
     (IN_A_FOUR_BAR, "$ω_{2}$ = $ω_{1}$ + $ω_{21}$ = −1.4838 + 2 = 0.5162 (0.51616) rad/s"),
-], ids=["on a block", "in a four-bar"])  # fmt: skip
+], ids=["on a block", "in a four-bar"])
 def test_a_driver_within_a_dyad_adds_its_rate_to_that_of_the_known_link(scene, line):
     assert line in lines_of(scene)
     assert check(scene).ok

@@ -112,7 +112,7 @@ CYLINDER_IN_A_FOUR_BAR = {
     },
     "driver": {"slide": "4", "travel": 300, "velocity": -45},
     "sketch": {"C": [150, 890], "D": [760, 700]},
-}  # fmt: skip
+}
 
 
 def test_the_rates_of_a_cylinder_between_moving_links_begin_with_its_speed() -> None:
@@ -219,7 +219,7 @@ def test_the_rates_of_driven_links_of_an_open_chain_go_on_from_the_first() -> No
         "links": {"1": {"points": ["A", "B"], "length": 60}, "2": {"points": ["B", "C"], "length": 50}},
         "driver": [{"link": "1", "angle": 40, "omega": 3},
                    {"link": "2", "relative_to": "1", "angle": 50, "omega": -2}],
-    }  # fmt: skip
+    }
     rate = "ω_2 = ω_1 · P12P01 / P12P02 = ω_1 · 60.00 / 180.00 = 1 rad/s"  # 3 - 2, for 60 : 180 = 1 : 3
     assert [rate in line for line in told(arm)].count(True) == 1
 

@@ -173,7 +173,7 @@ PRESS = {
     "masses": {"2": {"at": [60, 8], "mass": 3}},
     "loads": {"P": {"on": "3", "at": [15, 0], "force": 60, "angle": 180, "follows": "3"},
               "Q": {"on": "2", "at": "C", "force": 8, "angle": 45}},
-}  # fmt: skip
+}
 
 
 def of_loads(**tables: object) -> list[str]:
@@ -198,7 +198,7 @@ SPRING = {"s": {"between": ["A", "C"], "rate": 2, "free": 12, "preload": 0.5}}
 def test_a_spring_is_given_with_its_ends_and_its_numbers_in_the_units_of_the_file() -> None:
     told = of_loads(units={"length": "cm", "force": "kN"}, springs=SPRING)
     assert ("spring s from $A$ (link 0) to $C$ (link 2): rate 2 kN/cm, free length 12 cm, preload 0.5 kN; "
-            "$P_{s}$ acts on link 0") in told  # fmt: skip
+            "$P_{s}$ acts on link 0") in told
 
 
 def test_weights_that_do_not_pull_down_have_a_direction() -> None:
@@ -209,5 +209,5 @@ def test_weights_that_do_not_pull_down_have_a_direction() -> None:
 def test_the_line_of_a_balancing_force_is_given() -> None:
     # without it the force that is sought is any
     assert "$F_{1}$ on link 1 at $B$, 90° from the axis of link 1" == of_loads(
-        balance={"on": "1", "at": "B", "angle": "square"})[-1]  # fmt: skip
+        balance={"on": "1", "at": "B", "angle": "square"})[-1]
     assert "$F_{1}$ on link 1 at $B$, direction 10°" == of_loads(balance={"on": "1", "at": "B", "angle": 10})[-1]

@@ -24,7 +24,7 @@ from tests.construction.test_groups import BARE, HELD, UNBARRED, WELDED
 from tests.drawn import drafted
 
 GROUPS = ("contour-four-bars", "double-butterfly", "loader-cylinder", "single-flier", "sixbar-1A-last-link",
-          "triad-slider")  # fmt: skip
+          "triad-slider")
 
 
 def told(name, language="en"):
@@ -141,7 +141,7 @@ def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
 @pytest.mark.parametrize(("language", "named"), [
     ("en", "the distance of $B$ to the left of the guide g of link 5, less what it should be,"),
     ("zh", "$B$ 偏离构件 5 上导路 g 的距离（向左为正）减去应有值"),
-])  # fmt: skip
+])
 def test_what_is_missed_at_a_guide_is_told_with_the_guide(language, named):
     sheet = draft(mechanism_of(BARE))
     lines = written_lines(sheet, notation_of(sheet, "chinese"), language)
@@ -153,17 +153,17 @@ def test_what_is_carried_over_from_a_held_link_is_told_by_its_parts():
     (line,) = (line for line in told("scissor-lift") if line.startswith("$a^{r}_{A3A2}$"))
     # a point of 3, seen from 2: less what 2 does seen from 3, and twice how 3 turns in 2 times the relative velocity
     given = re.fullmatch(r".* = −\$a\^\{\(3\)\}_\{A2A3\}\$ and from its end .* = ([\d.]+) mm/s², "
-                         r"along \$v_\{A3\}\$ turned 90° (clockwise|counter-clockwise)", line)  # fmt: skip
+                         r"along \$v_\{A3\}\$ turned 90° (clockwise|counter-clockwise)", line)
     assert given
     seen = next(s.span for step in sheet.steps if step.diagram == "acceleration" for s in step.strokes
                 if getattr(s, "symbol", None) is not None and s.symbol.of == PointRef("A")
-                and s.symbol.to == PointRef("A", "3"))  # fmt: skip
+                and s.symbol.to == PointRef("A", "3"))
     velocity = next(v.span for v in sheet.vectors["velocity"].values() if v.symbol.of == PointRef("A", "3"))
     turned = {"clockwise": -1j, "counter-clockwise": 1j}[given[2]]
     per = sheet.scales.acceleration / sheet.scene.units.rates.metres
     share = float(given[1]) / per * turned * velocity / abs(velocity)
     whole = next(v.span for v in sheet.vectors["acceleration"].values() if v.symbol.kind == "ar"
-                 and v.symbol.of == PointRef("A", "3"))  # fmt: skip
+                 and v.symbol.of == PointRef("A", "3"))
     assert whole == pytest.approx(share - seen, abs=2e-3)
 
 

@@ -29,7 +29,7 @@ def test_vectors_of_loops_bear_the_mark_of_the_convention_that_is_asked_for():
     (r"150 \sin (\theta_{3} + 20^{\circ})", "150 sin (" + sign("θ", "3") + " + 20°)"),
     (r"\mathbf{l}_{AB} + \vec{s}_{61}",
      as_vector("us", sign("l", "AB")) + " + " + as_vector("russian", sign("s", "61"))),
-])  # fmt: skip
+])
 def test_a_line_is_set_in_latex_symbol_by_symbol(latex: str, line: RichText):
     assert latex == as_latex(line)
 

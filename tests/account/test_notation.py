@@ -16,7 +16,7 @@ from graphkin.scene.symbol import PointRef, Symbol
     ("F_{R56}", "F_{56}", "F_5/6"),
     ("F_{1,B}", "F_{1,B}", "F_1@B"),
     ("F_{1,B3}", "F_{1,B3}", "F_1@B@3"),
-])  # fmt: skip
+])
 def test_a_quantity_is_written_in_the_letters_of_its_school(chinese: str, us: str, name: str):
     schools = (Notation("chinese"), Notation("us"))
     assert [f"${chinese}$", f"${us}$"] == [repr(school.vector(Symbol.parse(name))) for school in schools]

@@ -18,7 +18,7 @@ from graphkin.words.symbols import sign
     ("Coriolis acceleration of B3 relative to B2", "B3 相对 B2 的哥氏加速度", "us", "ak_B@3/B@2"),
     ("velocity of Pin", "Pin 的速度", "chinese", "v_Pin"),
     ("alpha 5 p", "阿尔法 5 p", "chinese", "pressure_5"),
-])  # fmt: skip
+])
 def test_a_symbol_of_each_convention_is_read_as_what_it_is(english: str, chinese: str, school: str, name: str):
     symbol = Notation(school).vector(Symbol.parse(name))
     assert (english, chinese) == (spoken_words(symbol, "en"), spoken_words(symbol, "zh"))

@@ -166,7 +166,7 @@ def test_a_chinese_step_makes_a_point_so_that():
         ("sixbar-guide-40deg", 14, "pb_3 lengthened beyond p mark d_3 so that pd_3 : pb_3 = CD : CB = 167.6 : 381.6"),
         ("shaper-scheme-2", 17, "on pb mark s_4 so that ps_4 : pb = O_4S_4 : O_4B = 290 : 580 = 0.5"),
     ],
-)  # fmt: skip
+)
 def test_a_division_by_the_image_tells_its_ratio_also_beyond_the_bar(name, step, said):
     assert said in _steps(name, "en")[step - 1]
 
@@ -244,7 +244,7 @@ def test_rates_that_add_up_and_what_is_carried_over_from_a_held_link_are_steps_o
     assert 1 == sum(step.endswith("point a_3; v_A3 = −v_A2A3.") for step in said)
     (more,) = (step for step in said if "a^r_A3A2 = −a^(3)_A2A3" in step)
     assert more.replace("\u00a0", " ").endswith("and from its end 2ω_32 v_A3 = 2 × 0.083233 × 66.587 = 11.084 mm/s², "
-                         "along v_A3 turned 90° clockwise.")  # fmt: skip
+                         "along v_A3 turned 90° clockwise.")
 
 
 def test_every_equation_says_why_and_the_rule_of_coriolis_stands_once():
@@ -292,7 +292,7 @@ def test_a_vector_that_is_nought_is_not_drawn_from_the_pole():
 @pytest.mark.parametrize(("name", "old", "new", "convention"), [
     ("disc-on-disc", "O", "O", "british"), ("sixbar-guide-40deg", "D", "K", "chinese"),
     ("shaper-scheme-2", "C", "N", "chinese"), ("shaper-scheme-2", "B", "O", "british"),
-])  # fmt: skip
+])
 def test_no_two_places_of_a_polygon_bear_one_letter(name, old, new, convention):
     scene = read(name).to_dict()
     asked = {key: scene[key] for key in ("frame", "links", "contacts", "pins", "driver", "sketch") if key in scene}
@@ -307,7 +307,7 @@ def test_no_two_places_of_a_polygon_bear_one_letter(name, old, new, convention):
 @pytest.mark.parametrize(("told", "text", "language"), [
     ("So $v$ is found.", "so " + sign("v") + " is found", "en"), ("It ends.", "it ends.", "en"),
     ("$v$ 已知。", sign("v") + " 已知。", "zh"), ("Found: $v$.", "found: " + sign("v"), "en"),
-])  # fmt: skip
+])
 def test_a_sentence_has_its_capital_and_one_full_stop(told, text, language):
     assert told == repr(whole_sentence(text, language))
 
@@ -341,7 +341,7 @@ def test_a_vector_between_the_centres_of_two_discs_is_of_the_bar_that_stands_for
         "contacts": {"K": {"between": ["1.k", "2.w"]}, "L": {"between": ["2.v", "3.u"]}},
         "sketch": {"B": [54, 52], "G": [160, 60]},
         "driver": {"link": "1", "angle": 50, "omega": 12},
-    }))  # fmt: skip
+    }))
     assert ["OB", "EG"] == [link_of_vector(sheet, Symbol.parse(name)) for name in ("v_B/O", "v_G/E")]
 
 

@@ -93,7 +93,7 @@ def test_a_wrong_argument_is_told_in_a_sentence(call, said):
     lambda long: graphkin.solve(SIXBAR, find=[long]),
     lambda long: graphkin.draw(SIXBAR, formats=[long]),
     lambda long: graphkin.centres(SIXBAR, out=long),
-])  # fmt: skip
+])
 def test_a_sentence_does_not_repeat_a_page_of_what_was_given(call):
     with pytest.raises(graphkin.CallError) as refusal:
         call("x" * 100_000)
@@ -162,7 +162,7 @@ def test_a_link_that_is_turned_and_pushed_is_moved_by_the_driver_that_is_named()
         "pins": {"B": {"of": "1", "in": "3"}},
         "driver": [{"slide": "2/0", "travel": 95, "velocity": -140},
                    {"link": "2", "angle": -80, "omega": 10, "relative_to": "1"}],
-    }  # fmt: skip
+    }
     turned, pushed = (graphkin.solve(scene, at={key: -25}).data["positions"][0]["driver"] for key in ("2", "2/0"))
     assert {"2/0": 95, "2": math.radians(-25)} == pytest.approx(turned)
     assert {"2/0": -25, "2": math.radians(-80)} == pytest.approx(pushed)
@@ -172,7 +172,7 @@ FOUR_BAR = "fourbar-150-500-300-400"
 BY_LAW = {
     "frame": {"points": {"A": [0, 0]}}, "links": {"1": {"points": ["A", "B"], "length": 3}},
     "driver": {"link": "1", "law": {"from": 0, "to": 90, "duration": 1, "by": "345"}, "time": 0.5},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(

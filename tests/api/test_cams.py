@@ -119,7 +119,7 @@ def with_law(pieces, by, **changed):
 def test_every_law_jumps_where_textbooks_say_and_nowhere_else(pieces, by, impacts, soft):
     said = with_law(pieces, by).sentences("en")
     jumps = {word: [float(re.search(r"φ = ([-\d.]+)", s)[1]) for s in said if f"{word} jumps" in s]
-             for word in ("velocity", "acceleration")}  # fmt: skip
+             for word in ("velocity", "acceleration")}
     assert {"velocity": impacts, "acceleration": soft} == jumps
 
 
@@ -386,7 +386,7 @@ def crosses_itself(cam) -> bool:
      # the bar has swung past the line of the pivots: a drop of its velocity is a hollow
      ("cam-swinging-roller", {"roller": 4, "base": {"r": 160}}, False)],
     ids=["face", "roller", "swinging roller", "edge", "beyond the pivots"],
-)  # fmt: skip
+)
 def test_a_profile_is_undercut_where_the_velocity_drops_under_a_face_or_a_roller(name, tip, undercut, sense):
     scene = graphkin.read(name).to_dict()
     law = [{"to": 30}, {"to": 120, "rise": 20, "by": "uniform"}, {"to": 180}, {"to": 350, "fall": 20, "by": "345"}]
@@ -403,7 +403,7 @@ def test_a_profile_is_undercut_where_the_velocity_drops_under_a_face_or_a_roller
 @pytest.mark.parametrize(("roller", "stretches"), [(12, 2), (6, 0)])
 def test_a_profile_that_the_roller_cuts_away_from_another_flank_is_undercut(roller, stretches):
     law = [{"to": 40, "rise": 100, "by": "345"}, {"to": 70, "rise": 20, "by": "345"},
-           {"to": 110, "fall": 120, "by": "345"}, {"to": 360}]  # fmt: skip
+           {"to": 110, "fall": 120, "by": "345"}, {"to": 360}]
     scene = graphkin.read("cam-offset-roller").to_dict()
     scene["frame"]["guides"] = {"g": {"through": "A", "angle": 90}}
     scene["cams"]["1"] = {"follower": "2", "law": law, "base": {"r": 14, "of": "pitch"}, "roller": roller}
@@ -423,12 +423,12 @@ def test_degrees_of_a_law_are_those_of_the_file():
 
 def test_the_angle_of_a_piece_that_is_too_narrow_for_it_stands_below_the_marks_of_its_ends():
     law = [{"to": 100.123, "rise": 20, "by": "345"}, {"to": 112.456}, {"to": 124.789, "fall": 5, "by": "345"},
-           {"to": 300, "fall": 15, "by": "345"}, {"to": 360}]  # fmt: skip
+           {"to": 300, "fall": 15, "by": "345"}, {"to": 360}]
     things = list(walk(graphkin.cam(graphkin.read("cam-flat-face").replace("cams.1.law", law)).figures["cam"].children))
     angles = [text_box(t) for t in things if isinstance(t, Text) and "cell" in t.classes
-              and re.match(r"[\d.]+°", "".join(run.text for run in t.runs))]  # fmt: skip
+              and re.match(r"[\d.]+°", "".join(run.text for run in t.runs))]
     marks = [Box.around((line.start, line.end)) for line in things if isinstance(line, Line)
-             and (line.end - line.start) == pytest.approx(2.8j)]  # fmt: skip
+             and (line.end - line.start) == pytest.approx(2.8j)]
     assert (4, 10) == (len(angles), len(marks))
     assert not [1 for angle in angles for other in (*angles, *marks) if angle is not other and angle.overlaps(other)]
 
@@ -446,7 +446,7 @@ SLOW = [{"to": 150, "rise": 6, "by": "345"}, {"to": 180}, {"to": 340, "fall": 6,
     ("pivot", "bar", "law", "base", "allow", "sketch"),
     [([115.5, -8.0], 90.5, LATE_FALL, 30, (30, 25), [60, -80]),
      ([70, 0], 115, SLOW, 60, (56, 55.4), [30, 40])],  # the base circle goes round the pivot
-)  # fmt: skip
+)
 def test_a_base_circle_between_others_that_do_not_do_is_found_for_a_swinging_follower(
     pivot, bar, law, base, allow, sketch
 ):
@@ -456,7 +456,7 @@ def test_a_base_circle_between_others_that_do_not_do_is_found_for_a_swinging_fol
         "cams": {"1": {"follower": "2", "law": [*law, {"to": 360}], "sense": -1, "base": {"r": base},
                        "allow": {"rise": allow[0], "fall": allow[1]}}},
         "sketch": {"B": sketch}, "driver": {"link": "1", "angle": 0, "omega": 1},
-    })["1"]  # fmt: skip
+    })["1"]
     assert made.wanted_base is not None
     kept = [study_cam(replace(made.cam, base=made.wanted_base * share)).ok for share in (0.99, 1 + 1e-6, 1.1)]
     assert [False, True, False] == kept

@@ -359,7 +359,7 @@ def test_zero_has_no_sign_in_what_programs_read(call):
          ("find v_Q", 'there is no point "Q"', "there is no point")),
         (("solve", "shaper-scheme-2", "--at", "x"), "call", ("--at x", '"x" is no number', "is no number")),
     ],
-)  # fmt: skip
+)
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_a_program_reads_what_is_wrong(tmp_path, call, status, problem, language):
     links = 'points = ["A", "B"]\nlength = -3\n'
@@ -491,7 +491,7 @@ omega_3 = 2
     "call",
     [["solve"], ["solve", "--sweep", "2"], ["check"], ["draw"], ["centres"], ["centres", "--centrode", "2"], ["audit"],
      ["handout"], ["handout", "--template", "course-design"], ["sweep"], ["sweep", "--set", "links.1.length=85"]],
-)  # fmt: skip
+)
 def test_a_program_reads_why_what_it_asked_cannot_be_solved(call, tmp_path):
     (tmp_path / "s.toml").write_text(UNMOVABLE)
     done = run(call[0], "s.toml", *call[1:], "--json", cwd=tmp_path)

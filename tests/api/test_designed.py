@@ -29,13 +29,13 @@ EVEN = {"kind": "crank-rocker", "swing": 60, "rocker": 75, "K": 1, "frame": 100}
 BAR = {"kind": "guide-bar", "stroke": 100, "centres": 150, "K": 2}
 LIMITS = {"kind": "limits", "A": [0, 0], "D": [100, 20], "rocker": 60, "angles": [130, 70]}
 PLACES = {"kind": "three-positions", "BC": 80, "positions": [
-    {"B": [10, 60], "angle": 10}, {"B": [35, 80], "angle": -8}, {"B": [70, 82], "angle": -35}]}  # fmt: skip
+    {"B": [10, 60], "angle": 10}, {"B": [35, 80], "angle": -8}, {"B": [70, 82], "angle": -35}]}
 PAIRS = {"kind": "function", "frame": 10, "pairs": [[60, 20], [75, 45], [135, 130]]}
 POLE = [10 + 12.5 + 10 / math.tan(math.radians(9)), 60 + 10 - 12.5 / math.tan(math.radians(9))]
 """About it the bar turns from its first place to the second."""
 ABOUT_ONE_CENTRE = {"kind": "three-positions", "positions": [
     {"B": [3 * c - 4 * s, 4 * c + 3 * s], "C": [9 * c - 12 * s, 12 * c + 9 * s]}
-    for c, s in ((1, 0), (0.8, 0.6), (0, 1))]}  # fmt: skip
+    for c, s in ((1, 0), (0.8, 0.6), (0, 1))]}
 EACH = [SLIDER, ROCKER, EVEN, BAR, LIMITS, PLACES, {**PLACES, "A": [11, -35], "D": [57, 28]}, PAIRS]
 
 
@@ -219,7 +219,7 @@ def test_a_wrong_file_is_told_by_name(design, said):
     ({"links": {}, "design": SLIDER}, "links: unknown table; this is a scene; a design file has a table [design]"),
     ({"units": {}}, "design: is missing; a design file has a table [design] with kind and its data"),
     ("slider-crank-s50", 'no design of this name comes along; did you mean "slider-crank-stroke-50"?'),
-])  # fmt: skip
+])
 def test_what_is_no_design_file_is_told_so(file, said):
     with pytest.raises(graphkin.SceneError, match=re.escape(said)):
         graphkin.design(file)
@@ -320,7 +320,7 @@ def test_what_a_turn_confirms_is_named_in_both_languages():
     ({"kind": "three-positions", "positions": [{"B": [0, 0], "C": [40, 30]}, {"B": [10, 5], "C": [50, 35.0]},
                                                {"B": [30, 5], "C": [30, 55]}]},
      "B1 (0, 0), C1 (40, 30); B2 (10, 5), C2 (50, 35); B3 (30, 5), C3 (30, 55)"),
-])  # fmt: skip
+])
 def test_places_of_a_bar_that_are_given_stand_on_the_figure(design, said):
     drawn = re.sub(r"<[^>]*>|\s", "", found(design).figures["design"].content("svg").decode())
     assert said.replace(" ", "") in drawn
@@ -342,7 +342,7 @@ def test_what_a_turn_confirms_stands_on_the_figure_with_its_unit():
         ({"kind": "crank-rocker", "swing": 50, "rocker": 80, "K": 1.4, "frame": 60},
          80 * math.sin(math.radians(50 - 30)) / math.sin(math.radians(30)), 80.0),
     ],
-)  # fmt: skip
+)
 def test_a_free_datum_is_told_as_far_as_the_rest_of_the_wish_is_met(task, low, high):
     free = graphkin.design({"design": task}).data["choice"]
     assert (low, high) == pytest.approx((free["from"], free["to"]), rel=1e-8, abs=1e-9)

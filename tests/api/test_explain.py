@@ -36,7 +36,7 @@ def test_a_six_bar_is_explained_joint_by_joint() -> None:
     assert data["drivers"] == ["link 1 turns relative to link 6, now at 50°, clockwise with 10 rad/s (95.493 rpm)"]
     assert data["groups"][:2] == [
         "links 2, 3: RPR, class II", "its assembly: B on the positive side of the guide of 2/3"
-    ]  # fmt: skip
+    ]
 
 
 @pytest.mark.parametrize(
@@ -147,7 +147,7 @@ def test_a_spring_is_explained_with_its_ends_and_its_numbers_in_the_units_of_the
     sprung = graphkin.read("four-bar-coupler-point").to_dict() | {"springs": {"s": spring}}
     sprung["units"] = {"length": "cm", "force": "kN"}
     assert ("spring s between A of link 4 and C of link 2: rate 2 kN/cm, free length 12 cm, preload 0.5 kN; "
-            "P_s is its force on link 4") in graphkin.explain(sprung).text  # fmt: skip
+            "P_s is its force on link 4") in graphkin.explain(sprung).text
 
 
 def test_a_load_is_told_with_its_place_its_direction_and_when_it_acts_and_a_flywheel_with_its_link():
@@ -217,7 +217,7 @@ def test_internal_teeth_are_counted_without_a_sign() -> None:
 @pytest.mark.parametrize(("scene", "told"), [
     ("gears-epicyclic", "the frame, with the point A (0, 0)"), ("whitworth", "the frame, with the points "),
     ("scissor-lift", "has the further point M (800, 0)"), ("scissor-lift", "has the further points M (800, 0), P"),
-])  # fmt: skip
+])
 def test_one_point_is_a_point_and_several_are_points(scene: str, told: str) -> None:
     assert told in graphkin.explain(scene).text
 
@@ -257,7 +257,7 @@ def test_a_hollow_outline_has_a_radius_above_0_and_a_body_with_an_outline_elsewh
         },
         "contacts": {"K": {"between": ["1.k", "2.h"]}},
         "driver": {"link": "1", "angle": 70, "omega": 9},
-    })  # fmt: skip
+    })
     assert "it has the hollow round outline h about R, of radius 50 mm, inside which others touch it" in ring.text
     assert "link 2 is a body with the point C\n" in ring.text
 
@@ -268,7 +268,7 @@ PIN_AT_A_CROSSING: dict[str, Any] = {
     "links": {"1": {"points": ["A"]}, "2": {"points": ["P", "Q"], "length": 60}, "3": {"points": ["Q"], "on": "0.u"}},
     "pins": {"P": {"of": "2", "in": ["1", "0.v"]}},
     "driver": {"link": "1", "angle": 30, "omega": 2},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("scene", "mark"), [(PIN_AT_A_CROSSING, "mark P"), ("wheel-on-rail", "mark C, K")])

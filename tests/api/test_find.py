@@ -68,7 +68,7 @@ def test_what_leads_over_no_contact_tells_of_none() -> None:
 
 
 WRONG = ["v_B/B", "ak_B@1/C@2", "v_Q", "omega_9", "v_B at 9", "v_2/3", "C", "B@3", "v_9/3", "speed", "v_D.x",
-         "omega_3.x"]  # fmt: skip
+         "omega_3.x"]
 
 
 @pytest.mark.parametrize("name", WRONG)
@@ -81,7 +81,7 @@ def test_a_name_that_cannot_be_drawn_is_refused_alike_in_a_file_and_in_a_call(na
 
 
 @pytest.mark.parametrize(("name", "instead"), [("v_2/3", "v_B@2/B@3"), ("a_2/3", "a_B@2/B@3"), ("D", "x_D, y_D"),
-                                               ("v_D.x", "v_D"), ("v_5/6", "v_D@5/D@6")])  # fmt: skip
+                                               ("v_D.x", "v_D"), ("v_5/6", "v_D@5/D@6")])
 def test_what_stands_in_tables_alone_is_refused_with_what_a_drawing_has(name: str, instead: str) -> None:
     assert graphkin.solve(SIXBAR, find=name).table[name if "_" in name else f"x_{name}"].size
     told = run("check", SIXBAR, "--find", name).stderr
@@ -90,7 +90,7 @@ def test_what_stands_in_tables_alone_is_refused_with_what_a_drawing_has(name: st
 
 @pytest.mark.parametrize(("scene", "rate"), [("geneva-step", "v_B/2"), ("loader-cylinder", "v_7/6"),
                                              ("slider-crank-offset", "a_3/4"),
-                                             ("cam-eccentric-flat-rocker", "v_O/2")])  # fmt: skip
+                                             ("cam-eccentric-flat-rocker", "v_O/2")])
 def test_what_a_drawing_has_instead_of_a_rate_along_a_guide_can_be_asked_of_it(scene: str, rate: str) -> None:
     with pytest.raises(graphkin.CallError) as refused:
         graphkin.check(scene, find=rate)
@@ -103,7 +103,7 @@ LETTERED = {
     "links": {"1": {"points": ["A", "B"], "length": 20}, "2": {"points": ["B", "C"], "length": 60},
               "G": {"points": ["C"], "on": "F.h"}},
     "driver": {"link": "1", "angle": 60, "omega": 10},
-}  # fmt: skip
+}
 
 
 def test_a_rate_along_a_guide_has_no_component_where_its_links_are_letters() -> None:
@@ -126,7 +126,7 @@ IN_TABLES = [
     *(("geneva-step", name) for name in ("v_B/2", "a_B/2", "ak_B@2/B", "theta_2/1")),
     ("cam-swinging-roller", "pressure_2"), ("hit16-double-guide", "v_4/5"),
     *(("shaper-forces", name) for name in ("F_5/6", "F_6/5.y", "M_2", "M_6/1", "Mi_4")),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("scene", "name"), IN_TABLES)
@@ -139,7 +139,7 @@ def test_a_quantity_has_a_value_by_the_same_name_in_solve_and_prepare(scene: str
 REFUSED = [*((SIXBAR, name) for name in (
     "v_B/3", "s_B/3", "v_2/3.x", "C.x", "an_C", "an_C/B", "an_C.x", "omega_B", "stroke_5/6", "K_5/6", "4-5", "v_9",
     "v_Q", "v_D at 7", "F_5/6", "gamma_1-5", "ak_B@1/C@2", "speed",
-)), *(("shaper-forces", name) for name in ("F_2", "Fi_5", "h_4", "arm_G_6", "P_cut", "v_5/6"))]  # fmt: skip
+)), *(("shaper-forces", name) for name in ("F_2", "Fi_5", "h_4", "arm_G_6", "P_cut", "v_5/6"))]
 
 
 @pytest.mark.parametrize(("scene", "name"), REFUSED)
@@ -195,7 +195,7 @@ def test_a_long_sweep_has_each_position_once_whether_it_is_whole_or_comes_in_blo
     assert [8, 8, 4] == [len(block.motion) for block in solved.blocks()]
     in_blocks = list(solved.entries())
     assert solved.table["driver_2"] % 360 == pytest.approx(
-        [math.degrees(entry["driver"]["2"]) % 360 for entry in in_blocks], abs=1e-9)  # fmt: skip
+        [math.degrees(entry["driver"]["2"]) % 360 for entry in in_blocks], abs=1e-9)
     assert in_blocks == list(solved.entries())
 
 
@@ -225,7 +225,7 @@ def test_a_prepared_mechanism_has_no_column_of_the_whole_turn(scene: str, name: 
 
 
 @pytest.mark.parametrize(("name", "said"), [("swing_5/6", "names no link"), ("excess_W", "belongs to a flywheel"),
-                                            ("swing_3", "it stands in the summary")])  # fmt: skip
+                                            ("swing_3", "it stands in the summary")])
 def test_a_sweep_refuses_what_is_no_column_by_what_it_is(name: str, said: str) -> None:
     with pytest.raises(graphkin.CallError, match=said):
         graphkin.sweep(SIXBAR, find=[name])

@@ -64,7 +64,7 @@ def test_prepared_forces_alone_are_given_where_the_motion_comes_and_where_not():
 
 def test_tables_of_forces_over_a_turn_are_judged():
     rows = [{"at": POSITIONS["4"], "M_2": -1059.8, "F_4/3": 12033, "by": "computation"},
-            {"at": POSITIONS["10"], "M_2": -88.70, "F_4/3": 1408.4, "by": "computation"}]  # fmt: skip
+            {"at": POSITIONS["10"], "M_2": -88.70, "F_4/3": 1408.4, "by": "computation"}]
     judged = graphkin.audit(shaper(printed_rows=rows)).data
     verdicts = [value["verdict"] for value in judged["values"]]
     assert ["right", "right", "right", "wrong"] == verdicts
@@ -200,7 +200,7 @@ def test_two_cylinders_on_one_pin_have_a_force_each():
         "gravity": {"g": 10},
         "driver": [{"slide": "B/3", "travel": 150, "velocity": 0}, {"slide": "B/4", "travel": 180, "velocity": 0}],
         "sketch": {"B": [60, 50], "H": [50, 85]},
-    }  # fmt: skip
+    }
     solved = graphkin.solve(plate, find=["F_1@B@3", "F_1@B@4", "B"])
     b = complex(solved["B@1"][0])
     units = [along / abs(along) for along in (b - (-60 - 80j), b - (160 - 60j))]

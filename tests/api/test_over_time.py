@@ -224,7 +224,7 @@ def test_the_bounds_hold_what_rounding_does_to_a_law(time):
 
 @pytest.mark.parametrize(("at", "moment"), [
     (None, 0.4), ({"time": 0.2}, 0.2), ({"1": 110}, None), ({"3": 70}, None), ({"1": 125, "3": 70}, None),
-])  # fmt: skip
+])
 def test_a_moment_is_told_where_all_laws_stand_at_it(at, moment):
     entry = graphkin.solve(five_bar(), at=at).data["positions"][0]
     sheet = graphkin.check(five_bar(), at=at).sheet

@@ -193,7 +193,7 @@ def test_a_small_value_that_is_no_rounding_is_read_as_it_is():
                   "2": {"points": ["B", "C"], "length": 350}, "3": {"points": ["D", "C"], "length": 290}},
         "driver": {"link": "1", "angle": 30, "omega": 10},
         "sketch": {"C": [300, 280]},
-    }  # fmt: skip
+    }
     assert [1e-8] * 9 == pytest.approx(np.abs(graphkin.prepare(tiny, find=["v_E"]).sweep(9)["v_E"]).tolist(), rel=1e-9)
 
 

@@ -35,7 +35,7 @@ NAMES = {
     **dict.fromkeys(["check", "draw", "audit", "handout"], "v_D"),
     "solve": "v_D", "sweep": "v_D", "centres": "1-3", "centrodes": "fixed_x", "scenes": SIXBAR,
     "problem_set": "01", "stability": "crossing height",
-}  # fmt: skip
+}
 
 
 @cache
@@ -180,7 +180,7 @@ def test_two_results_of_different_positions_differ():
 CENTIMETRES = four_bar(
     15, 50, 30, 40, units={"length": "cm", "speed": "m/s"}, find=["v_C", "a_C", "omega_3", "alpha_3", "theta_3"],
     sketch={"C": [50, 29]}, printed={"v_C": 1, "a_C": 1, "omega_3": 1, "alpha_3": 1, "theta_3": 1},
-)  # fmt: skip
+)
 """Lengths in cm, speeds in m/s, so that no unit is right by chance."""
 UNITS = {"v_C": "m/s", "a_C": "m/s2", "omega_3": "rad/s", "alpha_3": "rad/s2", "theta_3": "deg"}
 
@@ -191,14 +191,14 @@ def routes(name):
     ways = {
         "check": graphkin.check(CENTIMETRES)[name], "draw": graphkin.draw(CENTIMETRES, figures=["velocity"])[name],
         "audit": graphkin.audit(CENTIMETRES)[name][0], "handout": graphkin.handout(CENTIMETRES)[name],
-    }  # fmt: skip
+    }
     if name in ("v_C", "omega_3"):
         ways["centres"] = graphkin.centres(CENTIMETRES)[name]
     found = {way: (value.exact, value.unit) for way, value in ways.items()}
     arrays = {
         "solve": graphkin.solve(CENTIMETRES)[name], "sweep": graphkin.sweep(CENTIMETRES, positions=1)[name],
         "prepare": graphkin.prepare(CENTIMETRES, find=[name])[name],
-    }  # fmt: skip
+    }
     return found | {way: (values[0], values.unit) for way, values in arrays.items()}
 
 
@@ -211,7 +211,7 @@ def test_a_quantity_is_the_same_number_in_the_same_unit_by_every_way(name):
     wrong = {
         way: value for way, (value, _) in routes(name).items()
         if (abs(expected) if way in sizes else expected) != pytest.approx(value, rel=1e-9)
-    }  # fmt: skip
+    }
     assert ({UNITS[name]}, {}) == (units, wrong)
 
 
@@ -223,7 +223,7 @@ def test_what_is_asked_by_name_shows_its_unit():
         (graphkin.sweep(CENTIMETRES, positions=2), "v_C"), (graphkin.prepare(CENTIMETRES, find=["v_C"]), "v_C"),
         (made("problem_set"), "01"), (graphkin.design("slider-crank-stroke-50"), "AB"), (made("centres"), "1-3"),
         (made("centrodes"), "fixed_x"),
-    )]  # fmt: skip
+    )]
     assert ["m/s"] * 7 == [next((unit for unit in ("m/s",) if unit in one), one) for one in shown[:7]]
     assert ["mm"] * 4 == [next((unit for unit in ("mm",) if unit in one), one) for one in shown[7:]]
 
@@ -231,7 +231,7 @@ def test_what_is_asked_by_name_shows_its_unit():
 @pytest.mark.parametrize(("kind", "heads"), [
     ("centres", ["x (mm)", "y (mm)"]), ("centrodes", ["driver (deg)", "fixed_x (mm)", "fixed_y (mm)"]),
     ("problem_set", ["v_C (mm/s)", "v_C +- (mm/s)"]),
-])  # fmt: skip
+])
 def test_tables_have_their_units_in_their_heads(kind, heads):
     assert heads == [head for head in made(kind).table.heads if head in heads]
 
@@ -281,7 +281,7 @@ def test_no_minus_stands_before_nought_in_what_programs_read(name):
 @pytest.mark.parametrize("made", [
     lambda language: graphkin.design("slider-crank-stroke-50", language=language),
     lambda language: graphkin.stability(kinds=["crossing height"], samples=1, language=language),
-])  # fmt: skip
+])
 def test_a_program_reads_the_same_sentences_in_every_language(made):
     english, chinese = (made(language).data for language in ("en", "zh"))
     assert _sentences(english) == _sentences(chinese)

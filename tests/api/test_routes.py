@@ -16,7 +16,7 @@ SCENES = [
     "cam-eccentric-flat-rocker", "cam-offset-roller", "disc-on-disc", "engine-gas-force", "fourbar-150-500-300-400",
     "gears-epicyclic", "geneva-step", "hydraulic-cylinder", "hypocycloid-straight-line", "oldham-coupling",
     "shaper-forces", "swinging-block", "toggle-press-force", "wheel-on-rail",
-]  # fmt: skip
+]
 
 
 @pytest.fixture(scope="module")

@@ -290,7 +290,7 @@ def dwelling(angle: float = 30, rise: str = "345") -> dict[str, object]:
             {"to": 360},
         ]}},
         "driver": {"link": "1", "angle": angle, "omega": 10},
-    }  # fmt: skip
+    }
 
 
 def test_a_K_that_leaves_out_dwells_says_so() -> None:

@@ -54,7 +54,7 @@ def test_the_papers_of_a_synthesis_are_typeset(tmp_path):
     assert 0 == done.returncode
     assert {f"{name}.{kind}" for name in ("problem", "solution", "key") for kind in ("html", "pdf")} == {
         path.name for path in tmp_path.iterdir()
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.parametrize("name", ["cam-offset-roller", "cam-flat-face"])

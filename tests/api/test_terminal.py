@@ -171,7 +171,7 @@ def without_unit(printed: str) -> list[str]:
             wrong += [
                 line for i, cell in enumerate(cells[1:], 1)
                 if NUMBER.fullmatch(cell) and not beside and (i >= len(heads) or "(" not in heads[i])
-            ]  # fmt: skip
+            ]
     return wrong
 
 
@@ -182,7 +182,7 @@ def without_unit(printed: str) -> list[str]:
         ["solve", "sixbar-guide-40deg", "--find", "v_D", "--find", "theta_3"], ["audit", "shaper-scheme-2"],
         ["design", "crank-rocker-swing-32"], ["draw", "slider-crank-offset", "--figure", "velocity"],
     ],
-)  # fmt: skip
+)
 def test_every_number_of_a_printed_table_has_its_unit(command: list[str], tmp_path: Path) -> None:
     printed = run(*command, cwd=tmp_path).stdout
     numbers = "\n".join(line for line in without_unit(printed) if not re.match(r"\s*(K|e|eta)\b", line))

@@ -72,7 +72,7 @@ def random_scene(rng: np.random.Generator) -> Mechanism:
             links[two] = {
                 "points": [pivot, f"E{k}"], "length": _mm(rng, 50, 300),
                 "guides": {"s": {"through": _point(rng, 40), "angle": _mm(rng, -180, 180)}},
-            }  # fmt: skip
+            }
             free += [f"E{k}"]
     driver = {"link": "1", "angle": _mm(rng, -180, 180), "omega": _mm(rng, -20, 20), "alpha": _mm(rng, -50, 50)}
     return mechanism_of({"frame": {"points": points, "guides": guides}, "links": links, "driver": driver})

@@ -28,11 +28,11 @@ SLOWEST = 10.0  # of the processor: others may be at work on the machine
 TEXTS = [library_text(name) for name in library()]
 SCENES = [tomllib.loads(text) for text in TEXTS]
 NUMBERS = [0, -0.0, 1, -1, 1e-300, 1e300, -1e300, 1e15, 1e-15, 10**30, 10**400, 5e-324, 1e9, 1e-9, 89.999999999, 90,
-           180, 360, 1e6, float("inf"), float("nan"), 2**63, 0.1 + 0.2]  # fmt: skip
+           180, 360, 1e6, float("inf"), float("nan"), 2**63, 0.1 + 0.2]
 WORDS = ["A", "B", "C", "D", "O", "1", "2", "3", "4", "6", "6.h", "3.s", "2/3", "", "drawn", "dead point", "v_B",
-         "a_B@3", "omega_3", "\u0000", "\x1b[31m", "\u202e", "\ud7ff", "é", "点", "💥", "A" * 300, "1e5"]  # fmt: skip
+         "a_B@3", "omega_3", "\u0000", "\x1b[31m", "\u202e", "\ud7ff", "é", "点", "💥", "A" * 300, "1e5"]
 PIECES = ["[", "]", "{", "}", "=", '"', "'", '"""', "#", ",", ".", "\n", "\t", "\x00", "\x1b[2J", "\u202e", "\ufeff",
-          "💥", "１", "“", "\r", "1e999", "-", "_", "0x1F", "nan", "1979-05-27", "[[driver]]", "[links.1]"]  # fmt: skip
+          "💥", "１", "“", "\r", "1e999", "-", "_", "0x1F", "nan", "1979-05-27", "[[driver]]", "[links.1]"]
 
 
 def damaged(seed: int) -> str | dict[str, Any]:

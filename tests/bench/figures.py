@@ -97,7 +97,7 @@ def main() -> None:
         whole, alone = best(lambda name=name: five(name)), best(lambda name=name: graphkin.solve(name))
         spent, times = placed(name)
         cells = (f"{whole:.0f}", str(ASKED.get(name, "")), f"{spent:.0f}", str(times), f"{whole / alone:.0f}",
-                 f"{first(name):.0f}", f"{process(name):.0f}")  # fmt: skip
+                 f"{first(name):.0f}", f"{process(name):.0f}")
         print(f"{name:<32}" + "".join(f"{cell:>14}" for cell in cells))
 
 

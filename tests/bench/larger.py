@@ -84,7 +84,7 @@ class _Draft:
                 "alpha": round(float(rng.uniform(-50, 50)), 3),
             },
             "sketch": {p: _pair(z) for p, z in self.at.items() if p not in self.fixed},
-        })  # fmt: skip
+        })
 
 
 def _triad(d: _Draft, hang: str) -> str:
@@ -221,7 +221,7 @@ class _Exact:
             arg=lambda z: self.mp.arg(self.mp.mpc(z)),
             unturned=lambda d: d - turn * self.mp.nint(d / turn),
             solve=self._solve,
-        ))  # fmt: skip
+        ))
 
     def _solve(self, matrix: np.ndarray, right: np.ndarray) -> np.ndarray:
         """In 16 digits, again and again on what is left."""
@@ -310,4 +310,4 @@ def _meant(structure: Structure, mp: Any) -> Structure:
     return replace(
         structure, links={n: link(x) for n, x in structure.links.items()}, slides=tuple(slides.values()),
         elements=tuple(element(e) for e in structure.elements),
-    )  # fmt: skip
+    )

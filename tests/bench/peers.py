@@ -118,7 +118,7 @@ def mechanism(case: Case, n: int) -> Call | None:
     made = Mechanism(
         vectors=(crank, rod, rocker, ground), origin=o, loops=loops, pos=angles, vel=np.full(n, OMEGA),
         acc=np.zeros(n), guess=(np.array([0.6, 1.2]), np.zeros(2), np.zeros(2)),
-    )  # fmt: skip
+    )
 
     def call() -> np.ndarray:
         made.iterate()

@@ -155,7 +155,7 @@ class _Model:
             self._add(point, FixedDyad(
                 anchor1=self._anchor(p), anchor2=self._anchor(q), distance=abs(points[point] - points[p]),
                 angle=cmath.phase(arm), name=point,
-            ))  # fmt: skip
+            ))
 
     def _dyad(self, dyad: Dyad) -> None:
         if any(body.joints for body in dyad.bodies):
@@ -183,7 +183,7 @@ class _Model:
         self._add(inner, RRRDyad(
             anchor1=self._anchor(one.point), anchor2=self._anchor(two.point),
             distance1=reach[0], distance2=reach[1], x=here.real, y=here.imag, name=inner,
-        ))  # fmt: skip
+        ))
 
     def _length(self, link: str, a: str, b: str) -> float:
         points = self.structure.links[link].points
@@ -208,7 +208,7 @@ class _Model:
             revolute_anchor=self._anchor(dyad.outer_first.point), line_anchor1=lines[0], line_anchor2=lines[1],
             distance=self._length(dyad.first.links[0], dyad.outer_first.point, inner), x=here.real, y=here.imag,
             name=inner,
-        ))  # fmt: skip
+        ))
 
     def _rpr(self, dyad: Dyad) -> None:
         from pylinkage.dyads import FixedDyad
@@ -229,7 +229,7 @@ class _Model:
                 self._add(point, FixedDyad(
                     anchor1=self._anchor(two.point), anchor2=self._anchor(one.point), distance=abs(arm),
                     angle=cmath.phase(arm / way), name=point,
-                ))  # fmt: skip
+                ))
 
 
 def scipy_root(work: Work, repeats: int) -> Iterator[Entry]:

@@ -70,7 +70,7 @@ def scenes(n: int = 10_000) -> None:
         took = best({
             "bare": one_thread(lambda b=bare, g=given, x=ready.numbers[0], o=out: b(0, n, x, *g, o)),
             "sweep": one_thread(lambda p=public: p.sweep(n)),
-        })  # fmt: skip
+        })
         ns = {what: seconds / n * 1e9 for what, seconds in took.items()}
         times = f"{ns['bare']:9.1f}{ns['sweep']:10.1f}{ns['sweep'] / ns['bare']:8.2f}x"
         print(f"{name:30}{len(ready.asked):8}{times}  {len(ready._divided(ready.range.grid(n))[2])}", flush=True)

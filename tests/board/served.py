@@ -24,7 +24,7 @@ def served(*args: str, cwd: Path) -> Iterator[tuple[str, subprocess.Popen[str]]]
     with subprocess.Popen(
         [*PROGRAM, "open", "--no-browser", *args], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=cwd,
         env=env,
-    ) as process:  # fmt: skip
+    ) as process:
         assert process.stdout is not None
         try:
             yield process.stdout.readline().strip(), process

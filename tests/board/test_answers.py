@@ -61,7 +61,7 @@ def test_lines_of_keys_are_known_in_tables_and_braces() -> None:
 @pytest.mark.parametrize(("where", "line"), [
     ("links.2.length", 20), (Phrase("link of name", name="3"), 22), (Phrase("line", line=7), 7),
     ("links.2.nothing", 18), (Phrase("point", point="A"), 11), (links_named(["3", "2"]), 22), ("nowhere", 0),
-])  # fmt: skip
+])
 def test_a_problem_stands_at_the_line_it_is_about(where: Wording, line: int) -> None:
     assert line == line_of(Problem(where, "is wrong"), SIXBAR)
 
@@ -150,7 +150,7 @@ def test_where_the_mechanism_does_not_reach_its_last_position_is_drawn_and_the_r
 @pytest.mark.parametrize("quick", [True, False])
 def test_the_motion_is_answeredwhere_a_load_has_no_stroke(quick: bool) -> None:
     text = changed(library_text("toggle-press-force"), {"links.1.length": 260, "driver.angle": 40, "flywheel": None,
-                                                        "find": [], "sketch.B": [80, -230]})  # fmt: skip
+                                                        "find": [], "sketch.B": [80, -230]})
     answered = answer(Shelf(), {"do": "show", "text": text, "figures": ["mechanism"], "quick": quick})
     assert answered["ok"], answered
     assert {"mechanism"} == set(answered["figures"])
@@ -161,7 +161,7 @@ def test_the_motion_is_answeredwhere_a_load_has_no_stroke(quick: bool) -> None:
     ("点 Q：没有这个点；可用的有：A、B、C、D、E、F", {"do": "pull", "point": "Q", "x": 1, "y": 2}),
     ("bar：起点与终点重合；请把它拖到别处", {"do": "build", "step": {"what": "bar", "from": [1, 2], "to": [1, 2]}}),
     ('"zz"：这里没有这个机构文件', {"do": "open", "name": "zz"}),
-])  # fmt: skip
+])
 def test_what_is_refused_is_said_in_the_language_of_the_question(chinese: str, question: dict) -> None:
     found = answer(DESK, {"text": SIXBAR, "language": "zh", **question})
     assert found["problems"][0]["text"].startswith(chinese)
@@ -182,7 +182,7 @@ def test_what_is_refused_is_said_in_the_language_of_the_question(chinese: str, q
     ("complete: found None; give line and column", {"do": "complete", "line": 3}),
     ("variants: found 61; give a number from 1 to 60", {"do": "export", "kind": "variants", "count": 61}),
     ("figures: found 'sheet'", {"do": "show", "figures": "sheet"}),
-])  # fmt: skip
+])
 def test_what_a_question_lacks_is_said_with_what_it_needs(sentence: str, question: dict) -> None:
     found = answer(DESK, {"text": SIXBAR, **question})
     assert [sentence] == [problem["text"] for problem in found["problems"]]
@@ -233,7 +233,7 @@ near  = -60
 @pytest.mark.parametrize(("text", "at"), [
     (LAW, None), (LAW, {"1": 70.0}), (DEAD, {"1": 12.0}), (library_text("geared-five-bar"), {"1": 140.0}),
     (library_text("double-butterfly"), {"2": 59.0}),
-])  # fmt: skip
+])
 def test_a_position_is_kept_with_the_moment_of_a_law_drawn_lengths_and_starts_of_wheels(text: str, at: dict) -> None:
     kept = answer(Shelf(), {"do": "keep", "text": text, "at": at})
     asked, found = graphkin.solve(tomllib.loads(text), at=at), graphkin.solve(tomllib.loads(kept["text"]))
@@ -271,7 +271,7 @@ def test_a_four_bar_is_built_from_nothing_and_agrees_with_its_check() -> None:
         {"what": "bar", "from": "A", "to": [20, 30]}, {"what": "bar", "from": "C", "to": [110, 80]},
         {"what": "bar", "from": "B", "to": "D"},
         {"what": "point", "link": "2", "at": [60, 90]}, {"what": "drive", "link": "1"},
-    )  # fmt: skip
+    )
     scene = tomllib.loads(text)
     assert graphkin.check(scene).ok
     motion = graphkin.solve(scene).motion
@@ -283,13 +283,13 @@ def test_a_slider_crank_and_a_quick_return_are_built() -> None:
         {"what": "pivot", "at": [0, 0]}, {"what": "bar", "from": "A", "to": [30, 40]},
         {"what": "bar", "from": "B", "to": [150, 10]}, {"what": "slider", "point": "C", "angle": 0},
         {"what": "drive", "link": "1"},
-    )  # fmt: skip
+    )
     assert graphkin.check(tomllib.loads(slider)).ok
     whitworth = built(
         {"what": "pivot", "at": [0, 0]}, {"what": "pivot", "at": [0, -100]},
         {"what": "bar", "from": "A", "to": [40, 30]},
         {"what": "slotted", "point": "B"}, {"what": "block", "point": "C", "link": "2"}, {"what": "drive", "link": "1"},
-    )  # fmt: skip
+    )
     assert graphkin.check(tomllib.loads(whitworth)).ok
 
 
@@ -311,7 +311,7 @@ def test_what_is_deleted_takes_along_what_hung_on_it() -> None:
     text = built(
         {"what": "pivot", "at": [0, 0]}, {"what": "bar", "from": "A", "to": [20, 30]}, {"what": "drive", "link": "1"},
         {"what": "delete", "link": "1"},
-    )  # fmt: skip
+    )
     assert not {"driver", "sketch"} & {k for k, v in tomllib.loads(text).items() if v}
 
 
@@ -452,7 +452,7 @@ def test_figures_and_scene_are_handed_out(kind: str) -> None:
     {"do": "export", "text": SIXBAR, "kind": "exe"},
     {"do": "export", "text": SIXBAR, "kind": "variants", "count": 10**9},
     {"do": "complete", "text": SIXBAR, "line": -5, "column": 10**9}, {"do": "watch"}, {"do": "thumbnail"},
-])  # fmt: skip
+])
 def test_every_wrong_message_is_told_what_is_wrong(message: object) -> None:
     found = answer(DESK, message)
     if isinstance(message, dict) and message.get("do") in ("complete", "watch"):
@@ -480,7 +480,7 @@ def test_a_scene_on_the_page_reads_no_file_from_elsewhere(file: str, table: str)
     assert "names files of its own folder" in found["problems"][0]["text"]
 
 
-# -- files ----------------------------------------------------------------------------------------------------------
+# files
 
 
 def test_a_file_is_saved_whole_with_the_version_before_beside_it(tmp_path) -> None:
@@ -506,7 +506,7 @@ def test_what_somebody_else_has_changed_is_not_overwritten(tmp_path) -> None:
 
 @pytest.mark.parametrize("name", [
     "other.toml", "../my.toml", "my.toml~", ".hidden.toml", "a/b.toml", "/etc/x.toml", "",
-])  # fmt: skip
+])
 def test_nothing_but_the_opened_file_is_written(tmp_path, name: str) -> None:
     (tmp_path / "my.toml").write_text(SIXBAR, encoding="utf-8")
     with pytest.raises(CallError):
@@ -561,7 +561,7 @@ def test_the_languages_of_a_sheet_are_completed() -> None:
 @pytest.mark.parametrize("message", [
     {"do": "link", "text": "\ud800"}, {"do": "save", "name": "mine.toml", "text": "\ud800"},
     {"do": "change", "text": SIXBAR, "changes": {"title": "\ud800"}},
-])  # fmt: skip
+])
 def test_half_a_character_is_refused_in_words(message):
     found = answer(Shelf(), message)
     assert not found["ok"]

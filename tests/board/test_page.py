@@ -76,7 +76,7 @@ def middle(page, selector: str) -> tuple[float, float]:
         """selector => { const one = document.querySelector(selector);
            if (!one) return null; const box = one.getBoundingClientRect();
            return box.width ? [box.x + box.width / 2, box.y + box.height / 2] : null; }""", arg=selector,
-    ))  # fmt: skip
+    ))
 
 
 def pull(page, start: tuple[float, float], end: tuple[float, float], let_go: bool = True) -> None:
@@ -195,7 +195,7 @@ def place_of(page, name: str) -> tuple[float, float]:
            const i = all.findIndex(one => one.textContent === name); if (i < 0) return null;
            const box = document.querySelectorAll('.sketch .joint')[i].getBoundingClientRect();
            return [box.x + box.width / 2, box.y + box.height / 2]; }""", arg=name,
-    ))  # fmt: skip
+    ))
 
 
 def test_a_four_bar_is_built_by_mouse_and_gets_its_checked_sheet(page) -> None:

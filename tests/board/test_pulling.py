@@ -12,7 +12,7 @@ from graphkin.scene.scene import library_text
 @pytest.mark.parametrize("name", [
     "four-bar-coupler-point", "shaper-scheme-2", "whitworth", "hydraulic-cylinder", "single-flier", "sixbar-AE70",
     "elliptic-trammel", "cam-eccentric-flat-rocker", "double-butterfly",
-])  # fmt: skip
+])
 def test_each_point_that_says_so_can_be_pulled_in_every_kind_of_mechanism(name: str) -> None:
     desk, text = Shelf(first=name), library_text(name)
     start = answer(desk, {"do": "show", "text": text, "figures": ["mechanism"]})

@@ -53,7 +53,7 @@ def test_no_answer_may_be_kept_guessed_at_or_shown_elsewhere(url: str, path: str
     wanted = {
         "X-Content-Type-Options": "nosniff", "Cache-Control": "no-store", "Referrer-Policy": "no-referrer",
         "Cross-Origin-Resource-Policy": "same-origin", "Cross-Origin-Opener-Policy": "same-origin",
-    }  # fmt: skip
+    }
     assert status == found.status
     assert wanted == {name: found.headers[name] for name in wanted}
     assert "frame-ancestors 'none'" in found.headers["Content-Security-Policy"]
@@ -61,21 +61,21 @@ def test_no_answer_may_be_kept_guessed_at_or_shown_elsewhere(url: str, path: str
 
 @pytest.mark.parametrize("headers", [
     {"Origin": "http://evil.example"}, {"Host": "evil.example"}, {"Origin": "null"}, {"Host": "127.0.0.1"},
-])  # fmt: skip
+])
 def test_calls_of_another_origin_or_host_are_refused(url: str, headers: dict[str, str]) -> None:
     assert 403 == get(url, urlsplit(url).path, **headers).status
 
 
 @pytest.mark.parametrize("path", [
     "/", "/wrong/", "/wrong/board.js", "/..", "/favicon.ico", "/%2e%2e/%2e%2e/etc/passwd", "/" + "a" * 4000 + "/",
-])  # fmt: skip
+])
 def test_without_the_secret_nothing_is_served(url: str, path: str) -> None:
     assert get(url, path).status in (403, 404)
 
 
 @pytest.mark.parametrize("path", [
     "../server.py", "%2e%2e/server.py", "..%2fserver.py", "board.js/x", "x", "web/src/board.js",
-])  # fmt: skip
+])
 def test_tricks_in_the_path_find_no_file(url: str, path: str) -> None:
     found = get(url, urlsplit(url).path + path)
     assert found.status in (403, 404)
@@ -89,7 +89,7 @@ def test_nothing_is_posted(url: str, method: str) -> None:
 
 @pytest.mark.parametrize(("path", "origin"), [
     ("talk", "http://evil.example"), ("talk", None), ("../wrong/talk", "own"),
-])  # fmt: skip
+])
 def test_sockets_of_others_are_refused(url: str, path: str, origin: str | None) -> None:
     from websockets.exceptions import InvalidStatus
     from websockets.sync.client import connect
@@ -116,7 +116,7 @@ def test_malformed_messages_get_a_sentence_and_the_server_lives_on(url: str) -> 
             elif kind == 2:
                 message = json.dumps({"do": draw.choice(["show", "pull", "build", "change", "keep"]),
                                       "text": draw.choice([text, None, 5, "", "["]), "at": draw.choice([5, {"1": "x"}]),
-                                      "step": [], "changes": {"a.b.c": {"d": [None]}}})  # fmt: skip
+                                      "step": [], "changes": {"a.b.c": {"d": [None]}}})
             else:
                 message = "[" * draw.randrange(2000)
             told = ask(message)

@@ -301,7 +301,7 @@ ROUNDED = {
     0: ("0.2455", "0.7233", "-138.549"), 45: ("-0.1904", "-1.4535", "-80.061"), 90: ("1.8925", "-1.9290", "20.035"),
     135: ("3.0651", "-1.1393", "56.638"), 180: ("0.7948", "-0.2051", "44.693"), 225: ("-1.8131", "0.5122", "39.966"),
     270: ("-2.8897", "1.3622", "56.209"), 315: ("-1.1077", "2.1287", "1.3116"),
-}  # fmt: skip
+}
 
 
 def test_values_computed_with_rounded_numbers_are_right():
@@ -345,7 +345,7 @@ def test_a_value_that_no_drawing_determines_is_not_said_to_lie_beside_a_dead_poi
         "gears": {"a": {"between": ["s", "p"], "teeth": [40, 20]}, "b": {"between": ["p", "r"], "teeth": [20, -80]}},
         "driver": [{"link": "s", "angle": 0, "omega": 10, "alpha": 2}, {"link": "r", "angle": 0, "omega": -5}],
         "sketch": {"W": [200, 0]}, "printed": {"alpha_q": "-0.4773"},
-    }  # fmt: skip
+    }
     (value,) = graphkin.audit(train).data["values"]
     assert (None, True) == (value["verdict"], value["why"].startswith("the error of a drawing may be larger here"))
 

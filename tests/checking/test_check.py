@@ -202,7 +202,7 @@ def test_forces_are_judged_by_what_rounding_leaves_of_them_near_a_dead_point(bef
         "sketch": {"C": [60, 60]},
         "loads": {"P": {"on": "3", "at": "C", "force": 100, "angle": 20}},
         "driver": {"link": "1", "angle": end - before, "omega": 1},
-    }).report.rows  # fmt: skip
+    }).report.rows
     pairs = [row for row in rows if row.reading.symbol.kind == "F"]
     assert {True if known else None} == {row.ok for row in pairs}
     # they differ by more than is allowed elsewhere

@@ -40,7 +40,7 @@ def table(folder, text, **more):
         ("a^n_B3C", "an_B@3/C"), ("anB3C", "an_B@3/C"), ("v_d", "v_D"), ("φ3", "theta_3"), ("dBC", "d_B/C"),
         ("s2/3", "s_2/3"),
     ],
-)  # fmt: skip
+)
 def test_a_symbol_is_read_as_people_spell_it(text, symbol):
     assert symbol == str(spelling_of(mechanism_of(SIXBAR)).symbol(text))
 
@@ -58,7 +58,7 @@ def test_a_word_that_names_nothing_of_the_scene_is_no_symbol(text):
         ("2.82 ± 0.1", 2.82), ("2．82", 2.82), ("0.282×10¹", 2.82), ("2.82 s^-1", 2.82), ("2.82 1/s", 2.82),
         ("2.82 radians per second", 2.82), ("2.82↷", -2.82), ("顺时针方向，大小为2.82", -2.82), ("-2.82 k̂", -2.82),
     ],
-)  # fmt: skip
+)
 def test_a_rate_is_read_as_people_write_it(text, value):
     assert pytest.approx(value) == read_cell(text, Symbol.parse("omega_3"), Units()).value
 
@@ -74,7 +74,7 @@ def test_a_rate_is_read_as_people_write_it(text, value):
         ("483，方向角 150°", 0.483, 150),
         ("毫米/秒483", 0.483, None), ("483 mm/s, 1.2 rad", 0.483, 68.75493541569878),
     ],
-)  # fmt: skip
+)
 def test_a_vector_is_read_with_its_unit_and_direction(text, value, degrees):
     found = read_cell(text, Symbol.parse("v_D"), Units())
     way = None if found.way.angle is None else pytest.approx(degrees * 3.141592653589793 / 180)
@@ -106,7 +106,7 @@ def test_what_is_no_such_value_says_so(text):
         ({"v_D": [-482.72, 0.0]}, "right"), ({"v_D": [-600.0, 0.0]}, "wrong"),
         ({"v_D": "482.77"}, "within drafting accuracy"),
     ],
-)  # fmt: skip
+)
 def test_digits_and_directions_say_what_was_meant_and_pardon_nothing(values, verdict):
     assert verdict == judged(**values)[0]["verdict"]
 
@@ -127,7 +127,7 @@ def test_digits_and_directions_say_what_was_meant_and_pardon_nothing(values, ver
         ("omega_3", "2.82 (negative)", "right"), ("omega_3", "2.82 垂直纸面向外", "wrong"),
         ("omega_3", "2.82 im Uhrzeigersinn", "not readable"), ("v_D", "483 mm/s vers la gauche", "not readable"),
     ],
-)  # fmt: skip
+)
 def test_directions_are_judged_as_people_write_them(symbol, text, verdict):
     assert verdict == judged(**{symbol: text})[0]["verdict"]
 
@@ -172,7 +172,7 @@ def test_the_words_of_the_key_are_right(tmp_path):
         rows = [
             (str(line.symbol), str(row[2]), row[6])
             for row, line in zip(key.rows, lesson.results, strict=True) if row[6]
-        ]  # fmt: skip
+        ]
         heads = ",".join(f"{symbol},{symbol} direction" for symbol, _, _ in rows)
         cells = ",".join(f"{value},{way}" for _, value, way in rows)
         found = table(tmp_path, f"name,{heads}\nx,{cells}\n").data["values"]
@@ -314,7 +314,7 @@ def test_a_quantity_printed_under_two_names_is_said():
         ("v_D (m/s)", "0.483", "right"), ("v_D (m/s)", 0.483, "right"), ("v_D", "0.483 m/s →", "wrong"),
         ("v_B3", "1075.8 mm/s, 12° below x", "right"), ("omega_3", "26.9 rpm cw", "right"), ("alpha_3", "7", "wrong"),
     ],
-)  # fmt: skip
+)
 def test_printed_values_are_written_as_in_a_class_table(name, value, verdict):
     scene = {**graphkin.read(SIXBAR).to_dict(), "printed": {name: value}}
     assert [verdict] == [row["verdict"] for row in graphkin.audit(scene).data["values"]]
@@ -405,7 +405,7 @@ def test_components_with_words_are_read_with_units_that_hold_a_digit():
         ("7500; -12990", "the sign of the x component"), ("-7500; 12990", "the sign of the y component"),
         ("-12990; -7500", "x and y components exchanged"), ("7500; 12990", "sign"),
     ],
-)  # fmt: skip
+)
 def test_a_slip_in_two_components_is_named_not_taken_for_another_position(text, slip):
     four_bar = "fourbar-150-500-300-400"  # a_B = (-7500, -12990.4)
     (value,) = graphkin.audit(four_bar, answers={"A": {"a_B": text}}).data["values"]
@@ -421,7 +421,7 @@ def test_accelerations_in_chinese_units_are_read(unit, tmp_path):
 
 @pytest.mark.parametrize("data", [
     "name,v_D\rJosé,482.7\r".encode(), "\ufeffname,\ufeffv_D\nJosé,482.7\u200b\n".encode(),
-], ids=["line ends of a Mac", "signs without width"])  # fmt: skip
+], ids=["line ends of a Mac", "signs without width"])
 def test_a_table_is_read_as_other_programs_write_it(data, tmp_path):
     (tmp_path / "class.csv").write_bytes(data)
     (value,) = graphkin.audit("sixbar-guide-40deg", answers=tmp_path / "class.csv").data["values"]

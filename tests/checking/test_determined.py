@@ -64,7 +64,7 @@ def test_agreement_within_a_tolerance_that_accepts_anything_is_none() -> None:
 @pytest.mark.parametrize(("verdict", "part"), [(True, 0.0), (True, 1e-15), (None, 1e-14), (None, 1e-10), (True, 1e-6)])
 def test_where_rounding_is_not_slight_a_value_above_the_last_digits_and_within_it_is_not_determined(
     verdict: bool | None, part: float,
-) -> None:  # fmt: skip
+) -> None:
     sheet = draft(mechanism_of("slider-crank-offset"))
     exact = {r.symbol: r.value for r in read_off(sheet)}
     v_c, largest = Symbol.parse("v_C"), max(abs(v) for symbol, v in exact.items() if str(symbol) in ("v_B", "v_C/B"))
@@ -176,7 +176,7 @@ def test_what_the_driver_gives_is_determined_where_rounding_loses_the_group_behi
     ("scene", "at"),
     [("elliptic-trammel", 199.9999999999), ("sixbar-AE70", 58.997280866), ("hydraulic-cylinder", 39.4448724537),
      (BY_ITS_PISTON, None)],
-)  # fmt: skip
+)
 def test_beside_a_dead_point_that_leaves_nothing_to_judge_a_check_names_it_and_is_not_called_wrong(
     scene: str | dict[str, Any], at: float | None
 ) -> None:
@@ -225,7 +225,7 @@ def loops_beside_a_dead_point(angle: float) -> dict[str, Any]:
         "pins": {"D": {"of": "3", "in": "4.g3"}},
         "driver": {"link": "1", "angle": angle, "rpm": -61.45711285577262, "alpha": 43.24601968573202},
         "sketch": {"C": [-196.93513323726478, 35.19061761610405], "E": [-42.52131367543874, 155.04540860444538]},
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.parametrize("angle", [269.05, 269.2, 269.25])
@@ -253,7 +253,7 @@ def stephenson(angle: float) -> dict[str, Any]:
             "6": {"points": ["D0", "D"], "length": 70},
         },
         "driver": {"link": "2", "angle": angle, "omega": 10},
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.parametrize("angle", [83.8756, 83.875642, -13.66839])

@@ -38,7 +38,7 @@ SLIPS = {
     "slip inertia left out": {"masses__4__inertia": 0.0},
     "slip weight left out": {"gravity__g": 1e-12, "masses__4": {"at": "S4", "mass": 220 / 9.8, "inertia": 1.2},
                              "masses__6": {"at": "C", "mass": 800 / 9.8}},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("slip", SLIPS)
@@ -72,10 +72,10 @@ def test_drawn_forces_are_right_within_what_a_pencil_keeps():
 @pytest.mark.parametrize(("force", "mass", "called"), [
     ("N", "kg", "N taken for kg in the inertia forces"),
     ("lbf", "lb", "inertia forces in lb·m/s² taken for lbf: not divided by 9.80665"),
-])  # fmt: skip
+])
 def test_an_inertia_force_too_large_by_g_is_called_in_the_units_of_its_scene(force, mass, called):
     scene = slider_crank(50, 180, units={"length": "mm", "force": force, "mass": mass}, gravity={"g": 9.80665},
-                         masses={"2": {"at": [60, 0], "mass": 3, "inertia": 0.02}})  # fmt: skip
+                         masses={"2": {"at": [60, 0], "mass": 3, "inertia": 0.02}})
     exact = abs(graphkin.solve(scene)["Fi_2"][0])
     (value,) = graphkin.audit(scene | {"printed": {"Fi_2": f"{exact * 9.80665:.5g}"}}).data["values"]
     assert called == value["looks_like"]

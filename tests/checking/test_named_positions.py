@@ -51,7 +51,7 @@ def test_a_driver_may_stand_at_a_named_position() -> None:
 def test_what_is_asked_of_another_position_is_drawn_there() -> None:
     checked = graphkin.check(SHAPER, find=["v_C", "v_C at 10"])
     assert [checked["v_C"].exact, graphkin.check(SHAPER, at="10")["v_C"].exact] == [
-        checked["v_C"].exact, pytest.approx(checked["v_C at 10"].measured)]  # fmt: skip
+        checked["v_C"].exact, pytest.approx(checked["v_C at 10"].measured)]
 
 
 def test_an_unknown_position_is_refused_with_the_nearest_name() -> None:

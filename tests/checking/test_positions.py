@@ -24,7 +24,7 @@ FOUR_BAR = {
     "sketch": {"C": [500, 290]},
 }
 EVERY = ["theta_4", "theta_5/4", "x_C", "d_B/C", "d_P25/P46", "s_3/4", "gamma_5-6", "pressure_6", "stroke_6/1",
-         "swing_4", "K_6/1", "theta_lag_6/1"]  # fmt: skip
+         "swing_4", "K_6/1", "theta_lag_6/1"]
 
 
 @pytest.fixture(scope="module")
@@ -132,7 +132,7 @@ DWELLING = {
         {"to": 60, "rise": 20, "by": "345"}, {"to": 140}, {"to": 160},
         {"to": 340, "fall": 20, "by": "345"}, {"to": 360},
     ]}},
-}  # fmt: skip
+}
 """A cam that lifts its follower in 60 degrees and lets it down in 180 (mm)."""
 
 

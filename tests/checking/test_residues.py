@@ -138,6 +138,6 @@ def test_the_rate_of_a_carrier_that_two_drivers_hold_at_rest_is_0():
         },
         "gears": {"a": {"between": ["s", "p"], "teeth": [40, 20]}, "b": {"between": ["p", "r"], "teeth": [20, -80]}},
         "driver": [{"link": "s", "angle": 0, "omega": 10}, {"link": "r", "angle": 0, "omega": -5}],
-    }  # fmt: skip
+    }
     (carrier,) = [row for row in check(train).data["readings"] if row["symbol"] == "omega_h"]
     assert (0.0, 0.0) == (carrier["measured"], carrier["exact"])

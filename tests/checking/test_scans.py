@@ -91,7 +91,7 @@ def test_a_normal_part_laid_off_too_short_is_named():
     assert "an_C/B" == result.off.name
     assert -0.2 * abs(n - b) == pytest.approx(result.off.longer)
     assert "length -20.0 %" in "\n".join(graphkin.audit(
-        scanned("acceleration", {"pole": 0j, "B": b}, {"an_C/B": foot, "C": wrong})).scan_lines)  # fmt: skip
+        scanned("acceleration", {"pole": 0j, "B": b}, {"an_C/B": foot, "C": wrong})).scan_lines)
 
 
 def test_a_part_laid_off_the_wrong_way_is_said_so():

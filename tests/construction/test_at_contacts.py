@@ -28,7 +28,7 @@ def scene(name):
     return {
         "frame": FRAME, "links": {"1": ECCENTRIC, "2": follower}, "contacts": {"K": {"between": ["1.k", f"2.{part}"]}},
         "driver": {"link": "1", "angle": 50, "omega": 9, "alpha": -4},
-    }  # fmt: skip
+    }
 
 
 FINGER = {
@@ -41,7 +41,7 @@ FINGER = {
     "contacts": {"K": {"between": ["1.k", "3.w"]}}, "sketch": {"E": [40, 30]},
     "driver": [{"link": "1", "angle": 50, "omega": 8, "alpha": 1},
                {"link": "3", "relative_to": "2", "angle": 60, "omega": 2, "alpha": -3}],
-}  # fmt: skip
+}
 FEET = {
     "frame": {"points": {"A": [0, 0]}, "guides": {"ceiling": {"through": [0, 90], "angle": 10},
                                                    "wall": {"through": [100, 0], "angle": 80}}},
@@ -54,7 +54,7 @@ FEET = {
                  "M": {"between": ["2.r", "0.ceiling"], "side": "right"}},
     "sketch": {"P": [5.9, 51.6], "Q": [95, 44], "R": [39, 89]},
     "driver": {"link": "1", "angle": 80, "omega": 6, "alpha": 2},
-}  # fmt: skip
+}
 TWO_FACES = {
     "frame": {"points": {"A": [0, 0], "C": [100, 0], "F": [160, 60]}},
     "links": {
@@ -66,7 +66,7 @@ TWO_FACES = {
     },
     "contacts": {"K": {"between": ["2.p", "3.f"]}, "L": {"between": ["2.p", "5.h"]}},
     "sketch": {"P": [80, 30], "S": [110, 60], "T": [150, 100]}, "driver": {"link": "1", "angle": 70, "omega": 5},
-}  # fmt: skip
+}
 SLOT = {
     "frame": {"points": {"A": [0, 0], "C": [90, 0]}},
     "links": {
@@ -74,12 +74,12 @@ SLOT = {
         "2": {"points": ["C"], "guides": {"s": {"centre": [20, 40], "r": 80}}},
     },
     "pins": {"B": {"of": "1", "in": "2.s"}}, "driver": {"link": "1", "angle": 70, "omega": 9, "alpha": 4},
-}  # fmt: skip
+}
 FURTHER = {
     "driver inside": FINGER, "three contacts of one link": FEET, "superposition": TWO_FACES, "circular slot": SLOT,
     "flat face by law": "cam-flat-face",
     "links named by words": json.loads(re.sub(r'"([1-5])(?=[".])', r'"link\1', json.dumps(TWO_FACES))),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", FURTHER)
@@ -169,7 +169,7 @@ WHEEL_BY_ROD = {
     "contacts": {"K": {"between": ["3.w", "0.r"], "rolling": True}},
     "driver": {"link": "1", "angle": 50, "omega": 6, "alpha": 2},
     "sketch": {"C": [100, 30]},
-}  # fmt: skip
+}
 
 
 def test_a_wheel_that_a_rod_rolls_swings_by_the_stroke_over_its_radius():
@@ -206,7 +206,7 @@ def test_a_link_that_slides_on_another_has_no_part_in_the_path_of_a_pin_in_its_c
         "pins": {"P": {"of": "4", "in": "2.c"}},
         "driver": [{"link": "1", "angle": 20, "omega": 3}, {"link": "4", "angle": 100, "omega": -2}],
         "sketch": {"P": [136, 79]},
-    }  # fmt: skip
+    }
     assert check(scene).ok
 
 

@@ -79,7 +79,7 @@ def test_indeterminate_eight_bars_stop_kennedys_theorem_where_the_literature_say
 def _two_fliers() -> dict[str, Any]:
     """Two single fliers on one frame, each with a driver of its own."""
     points = {"B": [18, 24], "E": [-7, 11], "C": [113, 86], "F": [155, 42], "H": [-10, 108], "J": [137, 108],
-              "K": [84, 173], "A": [0, 0], "D": [113, 0], "G": [11, 94]}  # fmt: skip
+              "K": [84, 173], "A": [0, 0], "D": [113, 0], "G": [11, 94]}
     bars = {"2": "ABE", "3": "BC", "4": "DCF", "5": "HJK", "6": "EH", "7": "FJ", "8": "GK"}
     frame: dict[str, Any] = {"name": "1", "points": {}}
     scene: dict[str, Any] = {"frame": frame, "links": {}, "driver": [], "drawn": {}}

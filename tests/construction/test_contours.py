@@ -52,7 +52,7 @@ THROUGH_A_BLOCK: dict[str, Any] = {  # a block on link 4 is driven from link 1, 
     },
     "driver": {"link": "1", "relative_to": "3", "angle": 120, "omega": 6, "alpha": -12},
     "sketch": {"D": [57, 104], "B": [18, 193], "C": [93, 174]},
-}  # fmt: skip
+}
 TURNED_ALIKE: dict[str, Any] = {  # the special points lie on two links that turn alike, one carried over to the other
     "frame": {"points": {"A": [0, 0], "D": [138, -16], "F": [252, 199], "G": [344, 65]}},
     "links": {
@@ -97,10 +97,10 @@ IN_A_TRIAD: dict[str, Any] = {  # a plate on three bars, of which one is two wit
         "A": [100, 100], "B": [200, 90], "C": [160, 170], "D": [120, 210], "E": [230, 200], "F": [180, 260],
         "G": [130, 240], "H": [90, 60], "K": [210, 50], "L": [250, 270],
     },
-}  # fmt: skip
+}
 SCENES = {
     "four-bar": FOUR_BAR, "through a block": THROUGH_A_BLOCK, "turned alike": TURNED_ALIKE, "on a guide": ON_A_GUIDE,
-}  # fmt: skip
+}
 
 
 @cache
@@ -257,7 +257,7 @@ def test_a_wrong_angular_velocity_of_the_held_link_is_followed_to_the_term_of_co
 
 def test_links_that_drivers_hold_to_each_other_are_one_contour() -> None:
     hinges = [(("2", "4"), 134 + 157j, None, False), (("4", "3"), 264 + 82j, None, False),
-              (("3", "5"), 154 + 36j, None, False)]  # fmt: skip
+              (("3", "5"), 154 + 36j, None, False)]
     driven, free = ((("5", "2"), 103 + 37j, None, held) for held in (True, False))
     assert [("2", "3", "4", "5")] == contours("2345", [*hinges, driven], [])
     assert [] == contours("2345", [*hinges, free], [])
@@ -273,7 +273,7 @@ def test_a_bar_square_to_the_guide_leaves_its_block_free() -> None:
 
 def test_a_driven_block_is_held_along_its_guide() -> None:
     hinges = [(("1", "2"), 0j, None, False), (("2", "3"), 20 + 30j, None, False),
-              (("3", "4"), 60 + 10j, None, False)]  # fmt: skip
+              (("3", "4"), 60 + 10j, None, False)]
     for driven, found in ((True, [("1", "2", "3", "4")]), (False, [])):
         assert found == contours("1234", [*hinges, (("4", "1"), 60 + 10j, 1 + 0j, driven)], [])
 

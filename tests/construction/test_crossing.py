@@ -41,7 +41,7 @@ def in_polygon() -> None:
 def in_force_polygon() -> None:
     cut = CutFree(DrawnPosition(held_by_pairs(draft(mechanism_of("engine-gas-force")))), EXACT, 1.0)
     known, last, first = (ForceVector(Symbol("F", link=link, other="1"), link=link, force=force)
-                          for link, force in (("2", 5 + 0j), ("3", 1j), ("4", -2j)))  # fmt: skip
+                          for link, force in (("2", 5 + 0j), ("3", 1j), ("4", -2j)))
     chain: list[ForceVector] = []
     cut.lay(chain, known)
     cut.close(chain, last, first)
@@ -56,14 +56,14 @@ def in_synthesis() -> None:
     (in_polygon, "v_B", "dead point", "move the driver off this position"),
     (in_force_polygon, "F_3/1", "dead point", "move the driver off this position"),
     (in_synthesis, "A", "not drawn", "other data"),
-])  # fmt: skip
+])
 def test_parallel_lines_are_one_problem_with_the_remedy_of_their_task(draw, where, status, wanted):
     with pytest.raises(Unsolvable) as refusal:
         draw()
     (problem,) = refusal.value.problems
     assert (where, "the two lines that should find it are", wanted) == (
         str(problem.where), problem.data["id"], str(problem.wanted)
-    )  # fmt: skip
+    )
     assert status == refusal.value.status
 
 

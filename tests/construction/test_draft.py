@@ -265,7 +265,7 @@ def test_a_rate_read_off_what_rounding_leaves_is_zero_but_for_a_driver_on_top_of
 
     def with_tiny(step):
         strokes = (replace(s, tail=0j, tip=tiny + 0j) if isinstance(s, Vector) and s.symbol == rate.vector else s
-                   for s in step.strokes)  # fmt: skip
+                   for s in step.strokes)
         return replace(step, strokes=tuple(strokes))
 
     left = tiny * sheet.scales.velocity / rate.arm
@@ -353,7 +353,7 @@ def test_the_limit_positions_of_a_follower_stand_its_lift_apart_on_either_side_o
     (Remark("mechanism", "short arm", {"links": "link 2", "point": "A", "other": "B"}, mm=2.0),
      "A lies only 2 mm from B on paper"),
     (Remark("velocity", "magnified", {"links": "link 2"}, size=3.0), "by up to 3 times as much"),
-])  # fmt: skip
+])
 def test_a_remark_tells_an_angle_a_length_or_a_factor(remark, said):
     assert remark.holds
     assert said in str(remark.phrase)

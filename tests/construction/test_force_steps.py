@@ -25,7 +25,7 @@ from tests.solver.test_forces import loaded
 pytestmark = pytest.mark.quick
 TOOLS = Tools()
 SCENES = ["shaper-forces", "engine-gas-force", "rocker-return-spring", "boom-lifted", BLOCK_ON_A_COMPOUND_HINGE, CHAIN,
-          DRIVEN_AGAINST_A_BLOCK, loaded(graphkin.read("double-butterfly").to_dict(), 5)]  # fmt: skip
+          DRIVEN_AGAINST_A_BLOCK, loaded(graphkin.read("double-butterfly").to_dict(), 5)]
 
 
 def drawn(scene: Any) -> Sheet:
@@ -85,7 +85,7 @@ def test_every_step_of_forces_is_told(scene: Any) -> None:
                                     ("cross", "closed by lines", "F_1/2 F_4/3"), ("join", "inside", "F_3/2")]),
     ("rocker-return-spring", "1", [("mark", "cut free", ""), ("lay off", "known forces", ""),
                                    ("join", "closed", "F_4/1"), ("read", "balance", "M_1")]),
-])  # fmt: skip
+])
 def test_a_group_is_drawn_verb_by_verb_and_each_step_finds_its_forces(
     scene: str, links: str, steps: list[tuple[str, str, str]]
 ) -> None:
@@ -96,12 +96,12 @@ def test_a_group_is_drawn_verb_by_verb_and_each_step_finds_its_forces(
 @pytest.mark.parametrize(("links", "ends"), [
     (("3", "4"), {"F_2/3 t": "ab", "Fi_3": "bc", "Fi_4": "cd", "P_gas": "de", "F_1/4": "ef", "F_2/3 n": "fa"}),
     (("2",), {"F_3/2": "ab", "F_1/2": "ba"}),
-])  # fmt: skip
+])
 def test_vectors_of_a_polygon_bear_letters_at_their_ends_in_the_order_of_laying_off(
     links: tuple[str, ...], ends: dict[str, str]
 ) -> None:
     vectors = [v for step in group_of("engine-gas-force", *links).by("known forces", "closed", "closed by lines")
-               for v in step.forces]  # fmt: skip
+               for v in step.forces]
     assert list(ends.items()) == [(f"{v.symbol} {v.part}".strip(), "".join(v.ends)) for v in vectors]
 
 
@@ -151,7 +151,7 @@ def test_the_point_of_moments_is_the_inner_pin_and_arms_are_measured_from_it() -
 
 @pytest.mark.parametrize(("scene", "links", "wholes"), [
     ("shaper-forces", "34", [True]), ("rocker-return-spring", "23", [True, False]), ("engine-gas-force", "34", [False]),
-])  # fmt: skip
+])
 def test_a_part_by_moments_is_the_whole_force_where_no_other_part_stands_in_the_polygon(
     scene: str, links: str, wholes: list[bool]
 ) -> None:
@@ -163,7 +163,7 @@ def test_a_part_by_moments_is_the_whole_force_where_no_other_part_stands_in_the_
 
 @pytest.mark.parametrize(("scene", "links", "symbol", "reason"), [
     ("shaper-forces", "34", "F_2/3", "about guide"), ("rocker-return-spring", "23", "F_1/2", "closed by lines"),
-])  # fmt: skip
+])
 def test_a_whole_force_appears_on_the_links_with_the_step_that_finds_its_size(
     scene: str, links: str, symbol: str, reason: str
 ) -> None:
@@ -182,7 +182,7 @@ def test_the_force_of_a_pin_of_several_links_is_read_off_with_all_its_parts() ->
     assert whole == pytest.approx(group.read[parts[0].symbol])
     assert pin not in group.read
     lines = [repr(line) for stage in force_stages(Account(sheet, notation_of(sheet, "chinese")))
-             for told in stage.steps for line in told.work_in("en")]  # fmt: skip
+             for told in stage.steps for line in told.work_in("en")]
     assert f"$F_{{RE3}}$ = {whole:.2f} mm × " in " ".join(lines)
 
 
@@ -194,7 +194,7 @@ def test_a_spring_is_told_with_the_length_that_the_hand_has_read() -> None:
     assert abs(step.length - on_paper) > 1e-6
     assert spring.pull(step.length) == pytest.approx(abs(pull.force), rel=1e-12)
     told = next(t for stage in force_stages(Account(sheet, notation_of(sheet, "us"))) for t in stage.steps
-                if t.step.reason == "spring")  # fmt: skip
+                if t.step.reason == "spring")
     assert f"= {abs(pull.force):.2f} N" in repr(told.sentence("en"))
 
 
@@ -202,7 +202,7 @@ def test_a_spring_is_told_with_the_length_that_the_hand_has_read() -> None:
     ("N", "kg", "3 kg × 1 m/s² = 3 N"),
     ("lbf", "lb", "3 lb × 1 m/s² ÷ 9.80665 (lb·m/s²)/lbf = 0.30591 lbf"),
     ("kN", "kg", "3 kg × 1 m/s² ÷ 1000 (kg·m/s²)/kN = 0.003 kN"),
-])  # fmt: skip
+])
 def test_an_inertia_force_is_the_quotient_of_what_is_printed(force: str, mass: str, told: str) -> None:
     units = {"length": "mm", "force": force, "mass": mass}
     sheet = drawn(slider_crank(50, 180, units=units, masses={"1": {"at": [10, 0], "mass": 3}}))

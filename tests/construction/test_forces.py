@@ -284,7 +284,7 @@ def test_a_scene_without_masses_and_loads_draws_no_forces():
     assert not graphkin.check("shaper-scheme-2").data["scales"].get("force")
 
 
-# -- planted errors --------------------------------------------------------------------------------------------------
+# planted errors
 
 
 def wrong(scene=SHAPER):
@@ -559,7 +559,7 @@ def forces_in_polygons(sheet):
     *((of_driven_slot(seed), "P3", "2", "1") for seed in range(3)), (DRIVEN_IN_A_SLOT, "B", "0", "1"),
     (loaded(floating_cylinder(3), 3), "Q", "3", "2"), (DRIVEN_ON_A_COMPOUND_HINGE, "B", "0", "1"),
     (DRIVEN_ON_A_COMPOUND_HINGE | {"pins": {"B": {"of": "7", "in": "0.g"}}}, "B", "0", "7"),
-])  # fmt: skip
+])
 def test_the_force_of_a_driven_pin_is_that_of_its_guide_with_the_push_of_the_driver(scene, pin, slot, of):
     sheet = with_forces(drawn(scene))
     found = by_name(sheet)
@@ -602,7 +602,7 @@ def test_a_driver_s_push_along_a_slot_is_the_only_load_of_a_pin_when_nothing_bal
      "P_R, F_0/8, F_1/7, F_7/8, F_0/1, F_1", "links 7, 8 and the block at B", 2),
     (CROSSING, {"Q": {"on": "1", "at": [30, 0], "force": 1e6, "angle": 30}},
      "P_W, F_2/3, F_0/3, F_1/2, F_0/2", "links 2, 3 and the blocks at P", 0.5),
-])  # fmt: skip
+])
 def test_small_forces_of_a_driven_block_are_read_off_its_polygon_at_a_scale_of_its_own(scene, load, forces, of, per_mm):
     large = {"Q": {"on": "2", "at": [70, 0], "force": 1e6, "angle": 30}}
     checked = graphkin.check(scene | {"loads": scene["loads"] | large | load})
@@ -649,7 +649,7 @@ def undrawn(sheet):
                     spans[vector.symbol] = spans.get(vector.symbol, 0j) + span * group.per_mm
                 for symbol, force in spans.items():
                     met |= {name for name, sign in ((symbol, 1), (symbol.opposite, -1))
-                            if abs(state.vectors.get(name, math.inf) - sign * force) <= least}  # fmt: skip
+                            if abs(state.vectors.get(name, math.inf) - sign * force) <= least}
         yield from (str(symbol) for symbol, force in state.vectors.items() if abs(force) > least and symbol not in met)
 
 
@@ -677,11 +677,11 @@ def test_every_force_that_is_read_off_stands_in_a_polygon():
     (CRANK_WRITTEN_LAST, "E", ["F_3/E", "F_4/3", "F_5/3"]), (CROSSING_OF_CIRCLES, "P", ["F_2/P", "F_c/2", "F_d/2"]),
     (ROD_TO_A_CROSSING_OF_CIRCLES, "P", ["F_2/7", "F_7/P", "F_c/7", "F_d/7"]),
     (BLOCK_ON_A_COMPOUND_HINGE, "E", ["F_3/E", "F_2/3", "F_6/3"]),
-])  # fmt: skip
+])
 def test_the_polygon_of_a_pin_gives_the_force_of_the_link_on_which_others_hang(scene, pin, forces):
     (state,) = with_forces(drawn(scene)).forces
     ((step, polygon),) = ((step, group.inner[step.links]) for group in state.groups for step in group.by("inside")
-                          if step.links == (f"{pin}/",))  # fmt: skip
+                          if step.links == (f"{pin}/",))
     assert forces == [str(vector.symbol) for vector in polygon]
     assert forces[-1:] == [str(symbol) for symbol in step.finds]
     assert polygon[0].tail == pytest.approx(polygon[-1].tip)
@@ -803,7 +803,7 @@ def test_values_of_the_motion_are_judged_where_a_load_has_no_stroke():
     assert ("v_C", "right") == (value["symbol"], value["verdict"])
 
 
-# -- groups with a scale of their own ----------------------------------------------------------------------------------
+# groups with a scale of their own
 
 PRESS = "toggle-press-force"
 
@@ -858,7 +858,7 @@ BESIDE_A_MEGANEWTON = {
     "driver": {"link": "1", "angle": 40, "omega": 5}, "sketch": {"C": [150, 120], "G": [-150, 120]},
     "loads": {"P": {"on": "3", "at": [60, 0], "force": 1e6, "angle": 200},
               "Q": {"on": "5", "at": [60, 0], "force": 50, "angle": -20}},
-}  # fmt: skip
+}
 
 
 def test_a_pencil_reads_fifty_newtons_beside_a_meganewton_to_a_few_in_a_hundred():
@@ -883,7 +883,7 @@ def test_forces_of_a_link_driven_from_a_later_one_are_drawn_with_those_of_all_li
         "driver": [{"link": "1", "relative_to": "2", "angle": 40, "omega": 3, "alpha": -1},
                    {"link": "2", "angle": 70, "omega": 2, "alpha": 0.5}],
         "masses": {"2": {"mass": 3, "at": "Q", "inertia": 0}},
-    }  # fmt: skip
+    }
     p, q = 0.1 * cmath.rect(1, math.radians(110)), 0.06 * cmath.rect(1, math.radians(70))
     force = 3 * ((-0.5j - 25) * p + (0.5j - 4) * q)
     moments = {"M_1": cross(p, force), "M_2": cross(p + q, force)}

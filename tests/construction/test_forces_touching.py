@@ -48,7 +48,7 @@ def test_what_rolls_is_held_along_the_rail_and_square_to_it():
         "contacts": {"K": {"between": ["1.k", "0.f"], "rolling": True}},
         "driver": {"link": "1", "angle": 0, "omega": 1},
         "loads": {"P": {"on": "1", "at": "C", "force": 50, "angle": -60}},
-    }  # fmt: skip
+    }
     checked = graphkin.check(given)
     assert -50 * np.exp(-1j * np.pi / 3) == pytest.approx(checked["F_0/1"].measured)
     assert 0.03 * 50 * np.cos(np.pi / 3) == pytest.approx(checked["M_1"].measured)

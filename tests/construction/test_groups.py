@@ -65,7 +65,7 @@ def triad(leg: str) -> dict[str, Any]:
         "pins": more.get("pins", {}),
         "driver": [*drivers, more["driver"]] if "driver" in more else drivers[0],
         "sketch": {"B": [13, 48], "C": [140, 70], "D": [228, 72], "E": [180, 140]},
-    }  # fmt: skip
+    }
 
 
 def driven_inside(leg: str) -> dict[str, Any]:
@@ -115,7 +115,7 @@ STEEP_SLOT: dict[str, Any] = {  # the plate's arm stands nearly square to the sl
     "pins": {"E": {"of": "3", "in": "0.s"}},
     "driver": {"link": "1", "angle": 59, "omega": 12, "alpha": -8},
     "sketch": {"B": [18, 30], "C": [70, 62], "D": [128, 48], "E": [96, 96]},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("seed", [3, 5, 7])
@@ -212,7 +212,7 @@ BARE: dict[str, Any] = {  # what a trial leaves open lies where a link without p
     },
     "driver": {"link": "7", "relative_to": "1", "angle": -103.78, "omega": 3.44, "alpha": 38.5},
     "sketch": {"B": [182.6, 140.2], "C": [212.1, -36.5], "D": [275.9, -15.7], "E": [145.6, 1.6]},
-}  # fmt: skip
+}
 UNBARRED: dict[str, Any] = {  # only the driven angle and guides that miss the points tell how links are turned
     "frame": {"points": {"A": [0, 0], "C": [107.632, 196.258]},
               "guides": {"g": {"through": [432.677, 113.137], "angle": 125.2}}},
@@ -228,7 +228,7 @@ UNBARRED: dict[str, Any] = {  # only the driven angle and guides that miss the p
     },
     "driver": {"link": "4", "relative_to": "6", "angle": 100.69, "omega": 12.36, "alpha": 0.7},
     "sketch": {"B": [43.1, 52.7], "D": [340.6, 170.9], "E": [425.2, 123.8]},
-}  # fmt: skip
+}
 HELD: dict[str, Any] = {  # only dyads remain where the driven block is left out, and what it slides on is driven
     "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": [250.829, -2.869], "angle": 142.7}}},
     "links": {
@@ -244,7 +244,7 @@ HELD: dict[str, Any] = {  # only dyads remain where the driven block is left out
     },
     "driver": {"link": "3", "relative_to": "1", "angle": -193.22, "omega": -11.17, "alpha": 37.6},
     "sketch": {"B": [188.7, 44.4], "C": [84.5, 31.4], "D": [235.5, 181.9], "E": [39.2, 64.1]},
-}  # fmt: skip
+}
 
 WELDED: dict[str, Any] = {  # a driven hinge in the group, and one place of both its links
     "frame": {"points": {"A": [0, 0], "E": [76.669, 34.436]}},
@@ -257,7 +257,7 @@ WELDED: dict[str, Any] = {  # a driven hinge in the group, and one place of both
     },
     "driver": {"link": "4", "relative_to": "2", "angle": -97.4, "omega": -12.36, "alpha": -12.8},
     "sketch": {"B": [154.5, 131.7], "C": [140.6, 97.9], "D": [-22.8, 14.5]},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("at", [70, 55, 95])
@@ -300,7 +300,7 @@ SLOTTED: dict[str, Any] = {  # links of later groups have their pins in slots of
     "driver": {"link": "4", "angle": -161, "omega": 10},
     "sketch": {"B": [-16, 107], "F": [140, -48], "G": [66, -23], "H": [-143, -145], "I": [30, 128], "J": [37, 95],
                "K": [33, 31]},
-}  # fmt: skip
+}
 
 
 TOUCHED: dict[str, Any] = {  # the same with discs on what is left out
@@ -310,14 +310,14 @@ TOUCHED: dict[str, Any] = {  # the same with discs on what is left out
         "7": SLOTTED["links"]["7"] | {"discs": {"k": {"centre": "J", "r": 4}}},
     },
     "contacts": {"T": {"between": ["6.k", "5.s"]}, "U": {"between": ["7.k", "1.s"]}},
-}  # fmt: skip
+}
 
 
 def test_a_group_is_drawn_by_the_assumed_speed_of_a_sliding_pair(monkeypatch: pytest.MonkeyPatch) -> None:
     plans = elements._plans
     monkeypatch.setattr(elements, "_plans", lambda *args, **more: (
         plan for plan in plans(*args, **more) if all(kind == "travel" for kind, _ in plan.tried)
-    ))  # fmt: skip
+    ))
     result = graphkin.check(STEEP)
     assumed = [symbol.kind for s in result.sheet.steps if isinstance(s, RateTrial) for symbol, _ in s.assumed]
     assert ["v", "v", "ar", "ar"] == assumed
@@ -506,7 +506,7 @@ def parallel_legs(moving: bool) -> dict[str, Any]:
         },
         "driver": {"link": "1", "angle": math.degrees(cmath.phase(b)), "omega": 8, "alpha": -15},
         "sketch": {"B": [13, 48], "C": [140, 70], "D": [230, 70], "E": [180, 140]},
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.parametrize("moving", [False, True])
@@ -522,7 +522,7 @@ def two_plates(moving: bool) -> dict[str, Any]:
     """Two plates hinged to each other, each on two parallel legs; those of the first from the crank and the frame, or
     both from the crank, so that the plate turns otherwise."""
     at = {"B": 13 + 48j, "C": 110 + 90j, "D": 90 + 190j, "E": 200 + 140j, "F": 300 + 190j, "G": 290 + 90j,
-          "K": 330 + 280j, "L": 265 + 15j}  # fmt: skip
+          "K": 330 + 280j, "L": 265 + 15j}
     at["H"] = at["D"] - 0.9 * (at["C"] - at["B"])
 
     def link(p: str, q: str, third: str = "") -> dict[str, Any]:
@@ -542,7 +542,7 @@ def two_plates(moving: bool) -> dict[str, Any]:
         },
         "driver": {"link": "1", "angle": math.degrees(cmath.phase(at["B"])), "omega": 8, "alpha": -15},
         "sketch": {p: [at[p].real, at[p].imag] for p in "BCDEFG"},
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.parametrize("moving", [False, True])
@@ -595,7 +595,7 @@ VAGUE: dict[str, Any] = {  # two assemblies lie a few per cent of the size off t
     "driver": {"link": "8", "relative_to": "7", "angle": -91, "omega": 2, "alpha": -3},
     "sketch": {"A": [100, 100], "B": [200, 90], "C": [160, 170], "D": [120, 210], "E": [230, 200], "F": [180, 260],
                "G": [130, 240], "H": [90, 60], "K": [210, 50], "L": [250, 270]},
-}  # fmt: skip
+}
 
 
 def test_of_assemblies_about_a_vague_sketch_the_nearest_is_drawn() -> None:
@@ -611,6 +611,6 @@ def test_where_the_own_position_is_a_dead_point_it_is_named_whatever_position_is
         "links": {"1": {"points": ["A", "B"], "length": 60}, "2": {"points": ["B", "C"], "length": 100},
                   "3": {"points": ["C", "D"], "length": 60}},
         "driver": {"link": "1", "angle": 180, "omega": 1},
-    }  # fmt: skip
+    }
     with pytest.raises(Unsolvable, match="this is the scene's own position, from which others are drawn"):
         graphkin.check(parallel, at=100)

@@ -21,7 +21,7 @@ TRIAD = {
     },
     "driver": {"link": "2", "angle": 60, "omega": 10, "alpha": 3},
     "sketch": {"C": [70, 55], "D": [130, 45], "E": [105, 86]},
-}  # fmt: skip
+}
 
 
 def pinion():
@@ -61,7 +61,7 @@ def test_a_rack_beside_a_cam_by_its_law_stands_as_far_on_its_guide_as_its_wheel_
                        "law": [{"to": 180, "rise": 24, "by": "cycloidal"}, {"to": 360, "fall": 24, "by": "345"}]}},
         "gears": {"g": {"between": ["1", "3"], "teeth": [40, "rack"]}},
         "driver": {"link": "1", "angle": 50, "omega": 8},
-    }  # fmt: skip
+    }
     found = check(scene, at=at, find=["x_R", "y_R"])
     radius = math.sin(math.radians(75)) * 60  # the rack's line passes the axis at this distance, below it
     for name, part in (("x_R", math.cos), ("y_R", math.sin)):
@@ -91,7 +91,7 @@ def test_a_wheel_off_the_way_to_what_is_asked_is_left_out_beside_a_cam():
                        "law": [{"to": 180, "rise": 25, "by": "345"}, {"to": 360, "fall": 25, "by": "345"}]}},
         "gears": {"g": {"between": ["1", "9"], "teeth": [20, 30]}},
         "driver": {"link": "1", "angle": 40, "omega": 10}, "find": ["a_B"],
-    }  # fmt: skip
+    }
     assert check(scene).ok
 
 
@@ -103,7 +103,7 @@ def test_beside_a_cam_links_are_followed_as_far_round_as_a_crank_drives_it():
                   "1": {"points": ["A", "H"], "length": 90}, "2": {"points": ["K"], "on": "0.g"}},
         "cams": {"1": {"follower": "2", "law": law, "base": {"r": 40}, "roller": 10}},
         "driver": {"link": "5", "angle": 70, "omega": 5},
-    }  # fmt: skip
+    }
     for at in (-60, 170, 430):
         result = check(scene, at=at)
         assert (True, True) == (result.ok, result.complete)
@@ -122,7 +122,7 @@ def test_a_follower_that_is_a_cam_itself_turns_its_own_follower_on_either_side(b
                   "law": [{"to": 180, "rise": 20, "by": "345"}, {"to": 360, "fall": 20, "by": "345"}]},
         },
         "driver": {"link": "1", "angle": 40, "omega": 10}, "sketch": {"B": [30, -40 if below else 40]},
-    }  # fmt: skip
+    }
     for at in (70, 215):
         result = check(scene, at=at)
         assert (True, True) == (result.ok, result.complete)

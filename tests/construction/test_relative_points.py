@@ -89,7 +89,7 @@ def test_in_a_parallelogram_lies_no_special_point_that_could_be_told_of(way: flo
         return {"points": [p, q], "length": abs(bar), "at": {third: [own.real, own.imag]}}
 
     links = {**CONTOUR["links"], "3": plate("B", "C", "D"), "5": {"points": ["D", "F"], "length": 75},
-             "6": plate("G", "E", "F")}  # fmt: skip
+             "6": plate("G", "E", "F")}
     scene = {**CONTOUR, "links": links, "sketch": {p: [at[p].real, at[p].imag] for p in "CDEF"}}
     result = graphkin.check(scene)
     assert ("superposition", []) == (result.data["construction"], off(result))
@@ -109,7 +109,7 @@ def test_the_coriolis_term_of_a_point_beside_the_pin_is_that_of_the_link_from_wh
         "driver": [{"link": "3", "angle": -105, "omega": 10, "alpha": 5},
                    {"slide": "V/2", "travel": 59, "velocity": -30}],
         "sketch": {"N": [-134, -74], "W": [34, -68], "V": [107, 81]},
-    }  # fmt: skip
+    }
     result = graphkin.check(two_slots)
     seen = 2 * abs(result["v_Z@2/Z@3"].exact) * 10
     assert (seen, []) == (pytest.approx(abs(result["ak_Z@2/Z@3"].exact)), off(result))

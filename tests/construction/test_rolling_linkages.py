@@ -120,7 +120,7 @@ def test_pitch_points_of_two_groups_have_letters_of_their_own():
         key: {other[name]: {**link, "points": [other[p] for p in link["points"]]} for name, link in value.items()}
         if key == "links" else {other[name]: [x + 500, y] for name, (x, y) in value.items()}
         for key, value in {**first, **first["frame"]}.items() if key in ("links", "points", "sketch")
-    }  # fmt: skip
+    }
     scene = {
         "frame": {"points": first["frame"]["points"] | second["points"]},
         "links": first["links"] | second["links"],

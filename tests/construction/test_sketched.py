@@ -27,7 +27,7 @@ BESIDE_A_GUIDE: dict[str, Any] = {  # the guides of link 5 lie beside its pin: t
     },
     "driver": {"link": "1", "angle": 116.14, "omega": 10.45},
     "sketch": {"B": [216.86, 76.06], "D": [-26.99, 55.0]},
-}  # fmt: skip
+}
 TURNED_ALIKE: dict[str, Any] = {  # one angle for links 2, 3, 4, 5: that at which all their guides pass their pins
     "frame": {"points": {"E": [81.75, 270.022]}, "guides": {"g": {"through": [69.194, -25.306], "angle": -50.1},
                                                             "h": {"through": [185.81, 59.693], "angle": -115}}},
@@ -44,7 +44,7 @@ TURNED_ALIKE: dict[str, Any] = {  # one angle for links 2, 3, 4, 5: that at whic
     },
     "driver": {"slide": "1", "travel": -23.883, "velocity": -161.6},
     "sketch": {"B": [208.5, 108.3], "C": [71.6, 4.9], "D": [53.9, -7.0]},
-}  # fmt: skip
+}
 NO_POINT: dict[str, Any] = {  # link 3 has no point: the guide on which it runs, and that on it, tell its place
     "frame": {"points": {"A": [0, 0], "C": [63.83, 171.664]}},
     "links": {
@@ -73,7 +73,7 @@ ROD: dict[str, Any] = {  # cylinder 4 points at G, and at nothing else: its rod 
     },
     "driver": [{"link": "1", "angle": 71.16, "omega": 5.4}, {"slide": "8", "travel": 116.966, "velocity": 42.2}],
     "sketch": {"B": [20.0, 58.7], "C": [149.2, 103.6], "E": [235.4, 29.9], "F": [82.0, 130.1], "H": [36.1, 86.0]},
-}  # fmt: skip
+}
 SCENES = {"beside a guide": BESIDE_A_GUIDE, "turned alike": TURNED_ALIKE, "no point": NO_POINT, "rod": ROD}
 
 

@@ -37,7 +37,7 @@ def sprung(scene, seed):
         made["springs"][name] = {
             "between": [p, q], "links": [a, b], "rate": rng.uniform(0.1, 9), "free": rng.uniform(0, 200),
             "preload": rng.choice([0.0, 5.0, -4.0]),
-        }  # fmt: skip
+        }
     return made
 
 
@@ -78,7 +78,7 @@ def test_a_spring_of_no_free_length_balances_a_weight_in_every_position():
         "driver": {"link": "1", "angle": 20, "omega": 0},
         "gravity": {"g": 10}, "masses": {"1": {"at": "B", "mass": 4}},
         "springs": {"W": {"between": ["K", "H"], "rate": 40 * 300 / (100 * 200), "free": 0}},
-    }  # fmt: skip
+    }
     moments = graphkin.solve(scene, sweep=36).forces.value(Symbol.parse("M_1"))
     assert abs(moments).max() <= 1e-13 * 40 * 0.3
 

@@ -50,7 +50,7 @@ def reasons() -> set[str]:
 @pytest.mark.parametrize(("kind", "lengths"), [
     (Step, set()), (PlaceStep, {"mm", "radii"}), (VectorStep, {"mm"}), (EndStep, set()), (RateStep, {"mm"}),
     (TaskStep, {"mm", "radii"}),
-])  # fmt: skip
+])
 def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_known_to_be_none(
     kind: type[Step], lengths: set[str]
 ) -> None:
@@ -100,7 +100,7 @@ SAME_AT_ALL_SCALES = {
     "TrialPositions.parts", "RateTrial.assumed", "Superposed.found", "Remark.size", "Rate.value", "Rate.arm",
     "LimitPosition.value", "LimitPosition.angle", "LimitPosition.rest", "CamStation.degree", "CamStation.way",
     "CamStation.normal", "CamStation.lift",
-}  # fmt: skip
+}
 DRAWN_ANEW = "Force", "Inertia", "MomentStep"  # at other scales
 
 
@@ -147,7 +147,7 @@ def test_an_angle_below_zero_is_laid_off_with_the_minus_of_print(base: str) -> N
 
 @pytest.mark.parametrize(("name", "sentence"), [
     ("elliptic-trammel", "mark the guides of frame 4"), ("four-bar-coupler-point", "and guides of frame 4: A, D"),
-])  # fmt: skip
+])
 def test_of_a_frame_without_points_only_its_guides_are_marked(name: str, sentence: str) -> None:
     first = draft(mechanism_of(name)).steps[0]
     assert say(first.phrase).endswith(sentence)
@@ -173,6 +173,6 @@ def test_each_pin_in_a_slot_of_a_crank_begins_with_the_crank_s_own_point_there()
         "pins": {"P": {"of": "2", "in": "1.g"}, "Q": {"of": "3", "in": "1.h"}},
         "driver": {"link": "1", "angle": 20, "omega": 3},
         "sketch": {"P": [60, 22], "Q": [-20, 60]},
-    }))  # fmt: skip
+    }))
     laid = [str(step.symbol) for step in sheet.steps if step.diagram == "velocity" and step.verb == "lay off"]
     assert ["v_P@1", "v_Q@1"] == laid

@@ -28,13 +28,13 @@ TASKS |= {
     "pivots": design_of({"design": {"kind": "three-positions", "BC": 80, "positions": PLACES, "A": [11, -35],
                                     "D": [57, 28]}}).task,
     "even": design_of({"design": {"kind": "crank-rocker", "swing": 60, "rocker": 75, "K": 1, "frame": 100}}).task,
-}  # fmt: skip
+}
 
 
 CAMS = {name: mechanism_of(name).cams[0] for name in LIBRARY}
 CAMS["knife edge"] = replace(CAMS["cam-offset-roller"], roller=0.0)
 CAMS["radial"] = replace(CAMS["knife edge"], motion=replace(
-    CAMS["knife edge"].motion, foot=CAMS["knife edge"].axis, offset=0.0))  # fmt: skip
+    CAMS["knife edge"].motion, foot=CAMS["knife edge"].axis, offset=0.0))
 
 
 def numbers(value: object) -> Iterator[complex]:

@@ -70,7 +70,7 @@ TRAINS = {
          "gears": {"r": {"between": ["3", "0"], "teeth": [20, -70], "carrier": "2"}},
          "driver": {"link": "3", "relative_to": "2", "angle": 0, "omega": 10}},
         {"omega_2": -20 / 7}),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("name", TRAINS)
@@ -112,9 +112,9 @@ def test_the_slope_of_a_wheel_s_line_on_paper_is_its_rate():
 def test_the_pole_of_a_plan_has_a_letter_that_no_axis_of_the_plan_has(axis, pole):
     links = {"1": {"points": ["A"]}, "2": {"points": ["A", axis], "length": 50}, "3": {"points": [axis]}}
     gears = {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},
-             "r": {"between": ["3", "0"], "teeth": [20, -70], "carrier": "2"}}  # fmt: skip
+             "r": {"between": ["3", "0"], "teeth": [20, -70], "carrier": "2"}}
     scene = {"frame": {"points": {"A": [0, 0]}}, "links": links, "gears": gears,
-             "driver": {"link": "1", "angle": 0, "omega": 10}}  # fmt: skip
+             "driver": {"link": "1", "angle": 0, "omega": 10}}
     svg = draw(scene, figures=["plan"]).figures["plan"]._repr_svg_()
     assert f"through the pole {pole} mark" in re.sub(r"<[^>]*>", "", svg)
 
@@ -122,7 +122,7 @@ def test_the_pole_of_a_plan_has_a_letter_that_no_axis_of_the_plan_has(axis, pole
 def test_a_straight_carrier_stays_straight_on_its_line_of_centres():
     links = {**SUN, "2": {"points": ["A", "B"], "length": 50, "at": {"C": [90, 0]}}, "4": {"points": ["C"]}}
     gears = {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},
-             "m": {"between": ["3", "4"], "teeth": [20, 20], "carrier": "2"}}  # fmt: skip
+             "m": {"between": ["3", "4"], "teeth": [20, 20], "carrier": "2"}}
     drivers = [{"link": "1", "angle": 0, "omega": 10}, {"link": "2", "angle": 10, "omega": 3}]
     scene = {"frame": AXIS, "links": links, "gears": gears, "driver": drivers}
     (line,) = check(scene).sheet.trains[0].on
@@ -137,7 +137,7 @@ FOUND_LATER = {
     "gears": {"s": {"between": ["1", "2"], "teeth": [20, 40]},
               "m": {"between": ["1", "6"], "teeth": [30, 20], "carrier": "5"}},
     "driver": {"link": "1", "angle": 100, "omega": 10, "alpha": 4},
-}  # fmt: skip
+}
 """Wheel 2 drives a four-bar, and its rocker 5 carries wheel 6 of the same train."""
 
 
@@ -146,7 +146,7 @@ def test_a_rate_is_read_off_a_plan_that_is_shown_though_others_of_the_train_are_
     sheet = check(FOUND_LATER).sheet
     (step,) = (s for s in sheet.steps if s.diagram == "velocity" and s.reason == "plan" and s.link == link)
     shown = [(plan.turning, plan.line(link).mm) for plan in sheet.trains if plan.order == "velocity"
-             and plan.line(link) is not None and plan.line(link).reason == "plan"]  # fmt: skip
+             and plan.line(link) is not None and plan.line(link).reason == "plan"]
     assert [(step.per_mm, step.mm)] == shown
     # a figure at other scales keeps the lengths of a plan
     assert step.mm == sheet.rates["omega"][link].scaled(2.0).mm
@@ -160,7 +160,7 @@ def test_a_wheel_on_a_carrier_that_is_found_later_has_the_rate_of_willis():
 
 @pytest.mark.parametrize(("name", "first", "last"), [
     ("coupled sets, found by trial", "plans", "plan"), ("a rack that is driven", "given on plan", "plan travel"),
-])  # fmt: skip
+])
 def test_the_steps_of_a_plan_are_its_trials_its_lines_and_the_speeds_read_off_it(name, first, last):
     sheet = draft(mechanism_of(TRAINS[name][0]))
     for number, plan in enumerate(sheet.trains, 1):
@@ -200,7 +200,7 @@ def two_trains(seen_from: str) -> dict:
     links = {
         "1": {"points": ["A", "B"], "length": 30}, "2": {"points": ["B"]}, "3": {"points": ["A"]},
         "4": {"points": ["A", "C"], "length": 40, "start": 0}, "5": {"points": ["C"]}, "6": {"points": ["A"]},
-    }  # fmt: skip
+    }
     meshes = ("32", [31, 16], "1"), ("02", [55, 14], "1"), ("65", [36, 17], "4"), ("05", [-75, 21], "4")
     gears = {f"g{k}": {"between": [*pair], "teeth": teeth, "carrier": on} for k, (pair, teeth, on) in enumerate(meshes)}
     driver = [{"link": "6", "angle": 0, "omega": 0.3, "relative_to": seen_from}, {"link": "5", "angle": 0, "omega": 12}]

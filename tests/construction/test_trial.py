@@ -178,7 +178,7 @@ def test_a_fit_next_to_the_last_value_that_can_be_drawn_is_found(last, sense, mo
     monkeypatch.setattr(group_position, "_drawn", drawn)
     monkeypatch.setattr(group_position, "_gaps", lambda reduced, known, values: (
         {} if drawn(reduced, known, values, ()) is None else {(): reduced.gaps(values[0])}
-    ))  # fmt: skip
+    ))
     reduced = SimpleNamespace(
         elements=(), trial=(SimpleNamespace(turns=True),), gaps=lambda at: [sense * at - fit], put_back=lambda at: at
     )

@@ -100,7 +100,7 @@ def test_a_triangle_of_which_two_links_slide_on_each_other_is_drawn_as_it_is_sol
         },
         "driver": {"slide": "4", "travel": 158, "velocity": 40, "acceleration": -25},
         "sketch": {"P": [87, 50], "Q": [191, 168], "D": [191, 368]},
-    })  # fmt: skip
+    })
     assert ["2/1"] == [t.pair.key for group in checked.sheet.structure.larger_groups for t in group.triangles]
     assert (True, True) == (checked.ok, checked.complete)
 
@@ -118,7 +118,7 @@ def test_a_turn_of_a_crank_is_drawn_with_the_triangle_that_a_cylinder_holds() ->
         "driver": [{"link": "1", "angle": 60, "omega": 10}, {"slide": "5", "travel": 15, "velocity": 2}],
         "sketch": {"B": [15, 26], "J": [60, 80], "C": [105, 90], "P": [52, 70], "Q": [68, 82]},
         "find": ["swing_7"],
-    }))  # fmt: skip
+    }))
     # of the rocker in both limits from the frame
     turned = [math.acos((120**2 + 90**2 - long**2) / (2 * 120 * 90)) for long in (90 - 30, 90 + 30)]
     axes = [math.pi - cmath.phase(limit.poses["7"].axis) for limit in sheet.limits["7"]]
@@ -139,7 +139,7 @@ def test_two_cylinders_on_one_link_close_triangles_about_different_links() -> No
         },
         "driver": [{"slide": "6", "travel": 70, "velocity": 10}, {"slide": "8", "travel": 75, "velocity": 5}],
         "sketch": {"C": [40, 95], "D": [155, 130], "E": [235, 80]},
-    }))  # fmt: skip
+    }))
     # from link 1 and from link 3 the first cylinder and the second both turn link 2; it has one driver only
     (group,) = structure.larger_groups
     assert [("6/5", "2"), ("8/7", "3")] == [(t.driver.key, t.equivalent.key) for t in group.triangles]

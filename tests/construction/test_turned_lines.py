@@ -31,7 +31,7 @@ from tests.construction.test_groups import (
     driven_inside,
     parallel_legs,
     two_plates,
-)  # fmt: skip
+)
 
 OFF = math.radians(0.1)
 TURNED = cmath.rect(1.0, OFF)
@@ -46,7 +46,7 @@ POLYGONS: dict[str, Any] = {
     "contour without bars": BARE, "contour with a driven hinge": WELDED, "special point carried over": TURNED_ALIKE,
     "special points without bars": UNBARRED,
     "trial polygons": "contour-four-bars", "trial polygons of an eight-bar": "double-butterfly",
-}  # fmt: skip
+}
 
 
 def wrong(planned: Plan, motion: solver.Motion, own_values: OwnValues) -> set[str]:
@@ -78,7 +78,7 @@ def test_each_line_of_a_group_turned_by_a_tenth_of_a_degree_makes_readings_wrong
         if not wrong(
             planned, motion, OwnValues(line=lambda symbol, way, one=one: way * TURNED if symbol == one else way)
         )
-    }  # fmt: skip
+    }
     assert unseen <= set(map(str, still))
     assert len(unseen) < len(lines) / 3
 

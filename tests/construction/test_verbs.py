@@ -84,7 +84,7 @@ def unseen(draw: Callable[[Instrument], Values]) -> set[str]:
 @pytest.mark.parametrize("scene", [
     "boom-lifted", "engine-gas-force", "rocker-return-spring", "shaper-forces", "sine-mechanism-forces",
     "toggle-press-force", loaded(graphkin.read("double-butterfly").to_dict(), 5),
-])  # fmt: skip
+])
 def test_in_forces(scene):
     sheet = draft(mechanism_of(scene))
     scales = force_scales(sheet)

@@ -46,7 +46,7 @@ def overlapping(chart: ChartPage) -> list[tuple[str, str]]:
     boxes = word_boxes(chart)
     return [
         (a, b) for i, (a, one) in enumerate(boxes) for b, other in boxes[:i] if one.grown(-SLACK).overlaps(other)
-    ]  # fmt: skip
+    ]
 
 
 def off_the_page(chart: ChartPage) -> list[str]:

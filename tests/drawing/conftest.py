@@ -153,7 +153,7 @@ def count_violations(svg: bytes) -> list[str]:
         if one < other:
             found.append(f"{names[one]!r} overlaps {names[other]!r}")
     kinds = (("is crossed by a line", figure.solid), ("covers an arrowhead", figure.arrowheads),
-             ("covers a joint", figure.joints))  # fmt: skip
+             ("covers a joint", figure.joints))
     for words, shapes in kinds:
         tree = shapely.STRtree(shapes)
         found += [f"{names[i]!r} {words}" for i in tree.query(inner, predicate="intersects")[0]]

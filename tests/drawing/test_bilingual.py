@@ -27,7 +27,7 @@ def test_a_place_is_told_in_each_language_behind_the_masses_that_stand_once():
 
 def test_what_a_construction_tells_to_who_does_not_see_ends_its_sentences_as_its_language_does():
     described = [design("guide-bar-stroke-100", language="zh").figures["design"].desc,
-                 cam("cam-flat-face", language="zh").figures["cam"].desc]  # fmt: skip
+                 cam("cam-flat-face", language="zh").figures["cam"].desc]
     assert [[], []] == [re.findall(r".\. |.\.$", text) for text in described]
 
 
@@ -41,7 +41,7 @@ def test_a_sentence_without_a_formula_stands_in_each_language_whole():
     said = Phrase(
         "given spring", name="R", point=sign("A"), link="3", other_point=sign("B"), other_link="4", rate="1.6 N/mm",
         free="60 mm", preload="12 N", force=sign("P"),
-    )  # fmt: skip
+    )
     assert (rich_text(said, "en"), rich_text(said, "zh")) == in_all(said, "both")
 
 
@@ -66,7 +66,7 @@ def test_velocities_by_centres_name_each_centre_as_often_in_two_languages_as_in_
         " ".join(t.string for t in walk(centres(name, language=each).figure.children)
                  if isinstance(t, Text) and "told" in t.classes)
         for each in ("en", "both")
-    ]  # fmt: skip
+    ]
     one, both = ([re.sub(r"\s", "", s) for s in re.findall(r"P\s*\d\s*\d", words)] for words in told)
     assert one
     assert one == both
@@ -78,7 +78,7 @@ def test_numbers_of_forces_stand_once_on_a_sheet_in_two_languages(figure):
         sorted(re.findall(r"\d+\.\d{3,}|\d{5,}", " ".join(texts(draw("shaper-forces", language=each,
                figures=(figure,)).figures[figure]))))
         for each in ("en", "both")
-    ]  # fmt: skip
+    ]
     assert long[0]
     assert long[0] == long[1]
 
@@ -93,7 +93,7 @@ def test_a_unit_that_both_languages_write_alike_stands_once():
     ("triad-slider", "Sonlink4:wherethelinesofthelegsat", "构件4上的S：C、E处两支链延长线"),
     ("engine-gas-force", "VS3bytheimageoflink3", "由构件3的影像得VS3"),
     ("gears-epicyclic", "goesonoverleaf转下页", "转下页"),
-])  # fmt: skip
+])
 def test_the_words_beside_the_equations_stand_in_both_languages(name, english, chinese):
     shown = texts(draw(name, language="both", figures=("sheet",)).figures["sheet"])
     said = re.sub(r"\s", "", "".join(shown))

@@ -39,7 +39,7 @@ def texts(block: Block) -> list[Text]:
 
 def test_a_column_is_as_high_as_its_blocks_with_a_gap_between_each_two() -> None:
     assert (17.0, 7.0) == (column(square(5.0), None, square(7.0), square(3.0), gap=1.0).height,
-                           column(square(5.0), square(7.0)).width)  # fmt: skip
+                           column(square(5.0), square(7.0)).width)
 
 
 def test_an_empty_block_takes_no_gap() -> None:

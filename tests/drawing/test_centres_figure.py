@@ -270,7 +270,7 @@ def test_long_names_of_links_and_points_stand_clear_of_each_other(violations: Ca
             "rocker": {"points": ["Drum", "Coupling"], "length": 300},
         },
         "driver": {"link": "crank", "angle": 60, "omega": 10},
-    }  # fmt: skip
+    }
     drawing = graphkin.draw(scene, figures=["centres"]).figures["centres"]
     assert [] == violations(drawing.content("svg"))
     assert any("AnchorP" in text.string for text in labels(drawing))
@@ -285,7 +285,7 @@ def at_rest(name: str) -> graphkin.Scene:
     lambda: graphkin.draw("sixbar-420rpm", figures=["centres"]).figures,
     lambda: graphkin.draw(at_rest("sixbar-420rpm"), figures=["centres"]).figures,
     lambda: graphkin.handout("sixbar-420rpm", formats=("html",), positions=1).files,
-], ids=["draw", "draw at rest", "handout"])  # fmt: skip
+], ids=["draw", "draw at rest", "handout"])
 def test_centres_whose_lines_are_a_tenth_of_a_degree_off_are_not_written(made, monkeypatch):
     def turned(a, b):
         (x, y, w), sine = wedge(a, b)

@@ -44,7 +44,7 @@ def test_a_sheet_short_of_room_has_the_frames_dimensions_closer_and_their_number
     crossed = [
         line for leg in legs for line in walk(leg.children)
         if isinstance(line, Line) and text_box(numbers[0]).clip(line.start, line.end)
-    ]  # fmt: skip
+    ]
     assert legs
     assert [] == crossed
 
@@ -55,7 +55,7 @@ def test_a_sheet_short_of_room_has_the_frames_dimensions_closer_and_their_number
         ("sixbar-guide-40deg", {"280", "164"}), ("slider-crank-s50-e16-K1.2", {"16"}), ("toggle-press", {"300", "200"}),
         ("slotter-75-150", {"150", "93"}), ("sixbar-coupler-1A", {"153.5", "87.5"}),
     ],
-)  # fmt: skip
+)
 def test_a_narrow_panel_has_the_frames_dimensions_within_the_mechanism(name, wanted):
     assert wanted - set(words(draw(name, figures=("sheet",)).figures["sheet"])) == set()
 
@@ -93,7 +93,7 @@ def test_the_unit_of_dimensions_is_told_where_it_is_not_the_millimetre():
 
 def test_pivots_whose_symbols_overlap_are_drawn_again_larger():
     groups = [thing.id for thing in walk(draw("sixbar-rotating-guide-35rpm").figures["sheet"].children)
-              if isinstance(thing, Group)]  # fmt: skip
+              if isinstance(thing, Group)]
     assert "detail-mechanism" in groups
 
 
@@ -107,7 +107,7 @@ def test_links_differ_in_black_and_white():
 @pytest.mark.parametrize(("name", "degrees"), [
     ("toggle-press", 235), ("whitworth", 195), ("sixbar-coupler-2B", 285), ("double-butterfly", 105),
     ("slotter-75-150", 0),
-])  # fmt: skip
+])
 def test_the_angle_of_the_crank_stands_on_every_mechanism(name: str, degrees: float) -> None:
     texts = words(draw(name, at=degrees, figures=["mechanism"], language="en").figures["mechanism"])
     ways = {f"{way:g}°".replace("-", "−") for way in (degrees, (degrees + 180) % 360 - 180)}
@@ -121,7 +121,7 @@ def test_an_angle_beyond_180_degrees_is_dimensioned_as_it_is_given():
 @pytest.mark.parametrize(("name", "lengths"), [
     ("hit16-double-guide", {"100", "200"}), ("sixbar-coupler-1A", {"87.5", "153.5", "41.7"}),
     ("sixbar-1A-last-link", {"41.7"}), ("toggle-press-force", {"300", "200"}), ("cam-offset-roller", {"8"}),
-])  # fmt: skip
+])
 def test_distances_in_the_frame_stand_on_the_mechanism_of_the_sheet(name, lengths):
     page = walk(draw(name, figures=("sheet",)).figures["sheet"].children)
     dimensions = next(thing for thing in page if isinstance(thing, Group) and thing.id == "dimensions")
@@ -150,7 +150,7 @@ def test_a_slot_in_the_frame_is_hatched_on_both_sides():
         "links": {"1": {"points": ["A", "B"], "length": 30}, "2": {"points": ["B", "C"], "length": 90}},
         "pins": {"C": {"of": "2", "in": "4.k"}}, "sketch": {"C": [110, 50]},
         "driver": {"link": "1", "angle": 60, "omega": 10},
-    }  # fmt: skip
+    }
     figure = draw(scene, figures=["mechanism"]).figures["mechanism"]
     (frame,) = (g for g in groups(figure.children) if g.id == "link-4")
     feet = [part.start for part in walk(frame.children) if isinstance(part, Line) and part.stroke == HATCHING]
@@ -171,7 +171,7 @@ SYMBOL, LINE = Obstacles(areas=(Box(19.0, 66.0, 21.0, 67.0),)), Obstacles(solid=
 
 @pytest.mark.parametrize(("around", "over", "offset"), [
     (Obstacles(), False, 22.0), (SYMBOL, False, -22.0), (SYMBOL, True, -22.0), (LINE, False, -22.0), (LINE, True, 22.0),
-])  # fmt: skip
+])
 def test_an_extension_line_runs_over_no_symbol_and_over_a_line_where_that_is_allowed(around, over, offset):
     ends, runs = (20 + 50j, 60 + 50j), rich("40", 2.8)
     taken = DimensionClearance(around, None).take((dimension(*ends, by, runs) for by in (22.0, -22.0)), over=over)

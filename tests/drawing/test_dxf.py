@@ -134,7 +134,7 @@ def test_letters_as_outlines_need_no_font():
 
 @pytest.mark.parametrize(("name", "most"), [
     ("cam-offset-roller", 1000), ("cam-flat-face", 600), ("cam-swinging-roller", 900),
-])  # fmt: skip
+])
 def test_the_profile_of_a_cam_has_no_more_arcs_than_its_bends_need(name: str, most: int) -> None:
     (cam,) = mechanism_of(name).cams
     assert most > len(arcs_of_profile(cam))

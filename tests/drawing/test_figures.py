@@ -55,7 +55,7 @@ def ids(page: ET.Element) -> list[str]:
     return [element.get("id") for element in page.iter() if element.get("id")]
 
 
-# -- true to scale -----------------------------------------------------------------------------------------------------
+# true to scale
 
 
 def test_b3_of_the_worked_example_lies_107_578_mm_from_the_pole() -> None:
@@ -120,7 +120,7 @@ def test_a_polygon_fills_40_to_90_per_cent_of_its_panel(name: str, diagram: str)
         if "vector" in group.get("class", "").split() and group.get("id").startswith(prefix):
             points += [complex(*(float(group[0].get(k)) for k in keys)) for keys in (("x1", "y1"), ("x2", "y2"))]
     ends = [max(p.real for p in points) - min(p.real for p in points),
-            max(p.imag for p in points) - min(p.imag for p in points)]  # fmt: skip
+            max(p.imag for p in points) - min(p.imag for p in points)]
     panels = [g[0] for g in page.iter(f"{SVG}g") if g.get("class") == "panel"]
     sides = []
     for panel in panels:
@@ -146,7 +146,7 @@ def test_given_dimensions_are_drawn(name: str, given: set[str]) -> None:
     assert given <= {"".join(text.itertext()) for text in root(name, "mechanism").iter(f"{SVG}text")}
 
 
-# -- structure ---------------------------------------------------------------------------------------------------------
+# structure
 
 
 @pytest.mark.parametrize("name", library())
@@ -214,7 +214,7 @@ def test_the_same_scene_gives_the_same_bytes() -> None:
     assert [svg_bytes(d) for d in one.values()] == [svg_bytes(d) for d in two.values()]
 
 
-# -- conventions and languages -----------------------------------------------------------------------------------------
+# conventions and languages
 
 
 @pytest.mark.parametrize(
@@ -265,7 +265,7 @@ def test_a_link_has_one_colour_in_the_mechanism_and_in_the_polygon() -> None:
     assert colour("mechanism", "link-3") == colour("velocity", "v_B3") == colour("acceleration", "a_B3")
 
 
-# -- senses ------------------------------------------------------------------------------------------------------------
+# senses
 
 
 @pytest.mark.parametrize(("id", "sense"), [("driver-1", -1), ("omega-3", -1), ("alpha-3", 1)])
@@ -331,7 +331,7 @@ def test_the_line_below_a_title_has_the_colon_of_its_language(figure: str) -> No
     ("name", "further"),
     [("wheel-on-rail", ["plan"]), ("gears-epicyclic", ["plan"]), ("disc-on-disc", ["contacts"]),
      ("cam-flat-face", ["cam", "contacts"]), ("four-bar-coupler-point", [])],
-)  # fmt: skip
+)
 def test_what_rolls_has_a_plan_by_itself_and_what_slides_on_an_outline_polygons_at_the_contact(
     name: str, further: list[str]
 ) -> None:

@@ -34,7 +34,7 @@ LABELLED = [
         ("disc-on-disc", 50, "us"), ("cam-flat-face", 70, "chinese"), ("geared-five-bar", 40, "russian"),
         ("wheel-on-rail", 30, "british"),
     )),
-]  # fmt: skip
+]
 BLOCK_ON_THE_CRANK = {
     "frame": {"points": {"A": [0, 0], "D": [0, -150]}},
     "links": {
@@ -209,7 +209,7 @@ def test_a_sum_of_moments_comes_to_nought_as_it_is_written(name: str) -> None:
         signed = terms if terms.startswith("−") else f"+ {terms}"
         products = re.findall(r"([+−]) (\S+)", signed.replace(unknown, value))
         moments = [(-1.0 if sign == "−" else 1.0) * math.prod(float(x.replace("−", "-")) for x in factors.split("·"))
-                   for sign, factors in products]  # fmt: skip
+                   for sign, factors in products]
         assert sum(moments) == pytest.approx(0.0, abs=2e-4 * max(map(abs, moments)))
 
 
@@ -263,7 +263,7 @@ def test_a_part_of_a_force_that_is_nought_is_not_told_as_the_force() -> None:
     links = list(at_pin["links"])
     pin = at_pin["links"][links[-1]]["points"][-1]
     scene = {**at_pin, "loads": {"Q": {"on": links[-1], "at": pin, "force": 400, "angle": 200}},
-             "balance": {"on": at_pin["driver"]["link"]}}  # fmt: skip
+             "balance": {"on": at_pin["driver"]["link"]}}
     lines = lines_of(scene)
     nought = {m[1] for line in lines if (m := re.search(r"(\$F[^$]*\$) = 0 k?N$", line))}
     read = {m[1] for line in lines if (m := re.search(r"(\$F[^$]*\$) = [\d.]+ mm × ", line))}
@@ -283,7 +283,7 @@ def test_what_rounding_leaves_of_forces_that_cancel_is_told_as_nought(seed, driv
 
 @pytest.mark.parametrize(("name", "links", "force"), [
     ("shaper-forces", "5-6", "F_1-6"), ("shaper-forces", "3-4", "F_1-4"), ("boom-lifted", "1-2-3", "F_4-1"),
-])  # fmt: skip
+])
 def test_the_sketch_of_a_group_and_its_polygon_stand_on_one_page(name: str, links: str, force: str) -> None:
     pages = [page.content("svg").decode() for page in graphkin.draw(name, figures=["forces"]).figures.values()]
     (page,) = (page for page in pages if f'id="free-body-{links}"' in page)

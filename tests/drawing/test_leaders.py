@@ -41,18 +41,18 @@ FIVE = ("mechanism", "velocity", "acceleration", "sheet", "centres")
 @pytest.mark.parametrize(("scene", "figure"), [
     *(("sixbar-AE70", figure) for figure in FIVE), *(("sixbar-1A-last-link", figure) for figure in FIVE),
     ("double-butterfly", "sheet"),
-])  # fmt: skip
+])
 def test_no_leader_runs_through_a_joint(scene, figure):
     leaders, _, joints = read(scene, figure)
     assert not [one for one in leaders for joint in joints
-                if one.intersects(joint) and joint.distance(shapely.Point(one.coords[0])) > 1.3]  # fmt: skip
+                if one.intersects(joint) and joint.distance(shapely.Point(one.coords[0])) > 1.3]
 
 
 @pytest.mark.parametrize("scene", ["sixbar-AE70", "shaper-scheme-2", "sixbar-guide-40deg"])
 def test_hardly_a_leader_runs_across_a_velocity(scene):
     leaders, vectors, _ = read(scene, "velocity")
     crossed = [one for one in leaders for vector in vectors
-               if one.intersects(vector) and vector.distance(shapely.Point(one.coords[0])) > 0.45]  # fmt: skip
+               if one.intersects(vector) and vector.distance(shapely.Point(one.coords[0])) > 0.45]
     assert len(crossed) <= 1
 
 
@@ -77,7 +77,7 @@ def test_what_a_crowd_has_no_room_for_is_listed_behind_the_number_of_its_step():
 @pytest.mark.parametrize(("scene", "figure", "one", "other"), [
     ("slotter-75-150", "sheet", "label-velocity-C", "label-direction-17"),
     ("sixbar-guide-40deg", "velocity", "label-velocity-D", "label-direction-15"),
-])  # fmt: skip
+])
 def test_letters_on_one_line_do_not_run_together(scene, figure, one, other):
     texts = {thing.id: thing for thing in walk(drawn(scene).figures[figure].children) if isinstance(thing, Text)}
     a, b = text_box(texts[one]), text_box(texts[other])
@@ -94,7 +94,7 @@ def crossed(scene: str, figure: str) -> int:
     leaders, vectors, _ = read(scene, figure)
     foot = shapely.Point
     return sum(one.intersects(vector) and vector.distance(foot(one.coords[0])) > 0.45
-               for one in leaders for vector in vectors)  # fmt: skip
+               for one in leaders for vector in vectors)
 
 
 @pytest.mark.parametrize("scene", ["shaper-forces", "hit-two-RPR", "hydraulic-cylinder", "boom-lifted"])
@@ -105,7 +105,7 @@ def test_no_leader_of_these_sheets_runs_across_a_vector(scene):
 @pytest.mark.parametrize(("scene", "figure"), [
     ("sixbar-rotating-guide-35rpm", "velocity"), ("sixbar-1A-last-link", "acceleration"), ("wheel-on-rail", "sheet"),
     ("disc-on-disc", "acceleration"), ("double-butterfly", "sheet"),
-])  # fmt: skip
+])
 def test_a_name_with_no_room_makes_others_move_before_its_leader_runs_across_two_vectors(scene, figure):
     assert crossed(scene, figure) <= 1
 
@@ -118,7 +118,7 @@ def texts_of(scene: str, figure: str, **options: str) -> dict[str, str]:
 @pytest.mark.parametrize(("scene", "figure"), [
     ("disc-on-disc", "acceleration"), ("disc-on-disc", "sheet"), ("disc-on-disc", "contacts-2"),
     ("loader-cylinder", "sheet"), ("sixbar-rotating-guide-scheme2", "sheet"),
-])  # fmt: skip
+])
 def test_no_leader_runs_across_a_vector_in_a_crowd(scene, figure):
     assert crossed(scene, figure) == 0
 
@@ -170,7 +170,7 @@ def test_the_crossing_of_the_arcs_that_find_a_tangent_is_joined_to_the_pivot_of_
     layers = {group.id: group for group in drawn("cam-eccentric-flat-rocker").figures["mechanism"].children}
     ((line,),) = (group.children for group in layers["construction"].children if "tangent" in group.classes)
     arcs = [thing for group in layers["construction"].children if "compass" in group.classes
-            for thing in walk(group.children) if isinstance(thing, Arc)]  # fmt: skip
+            for thing in walk(group.children) if isinstance(thing, Arc)]
     crossing = [arc for arc in arcs if abs(abs(line.start - arc.centre) - arc.radius) < 1e-9]
     assert 2 == len(crossing)
     pivot = next(group for group in layers["mechanism"].children if group.id == "point-O")
@@ -182,7 +182,7 @@ def test_a_number_without_room_at_its_vector_stands_beside_its_name():
     (number,) = [text_box(text) for text in texts if text.string == "(28)"]
     (name,) = [text_box(text) for text in texts if text.id == "label-a_B"]
     assert max(number.left - name.right, name.left - number.right, number.top - name.bottom,
-               name.top - number.bottom) == pytest.approx(0.5)  # fmt: skip
+               name.top - number.bottom) == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize(("scene", "point"), [("toggle-press", "B"), ("sixbar-420rpm", "C")])
@@ -193,9 +193,9 @@ def test_no_compass_arc_runs_along_a_bar_so_close_that_it_looks_like_a_splinter_
     at = next(thing.centre for thing in walk(joint.children) if isinstance(thing, Circle))
     arcs = [thing for group in things if "compass" in group.classes for thing in walk(group.children)]
     ends = [end for arc in arcs for end in (arc.at(arc.start), arc.at(arc.end))
-            if abs(abs(arc.centre - at) - arc.radius) < 1e-6 and 1.0 < abs(end - at) < 8.0]  # fmt: skip
+            if abs(abs(arc.centre - at) - arc.radius) < 1e-6 and 1.0 < abs(end - at) < 8.0]
     bars = [shapely.LineString([(z.real, z.imag) for z in (arc.centre, at)]) for arc in arcs
-            if abs(abs(arc.centre - at) - arc.radius) < 1e-6]  # fmt: skip
+            if abs(abs(arc.centre - at) - arc.radius) < 1e-6]
     assert len(bars) == 2
     assert ends
     assert min(bar.distance(shapely.Point(end.real, end.imag)) for bar in bars for end in ends) > 1.2
@@ -205,7 +205,7 @@ def test_no_vector_runs_between_a_point_and_its_letter_that_has_no_leader():
     scene, figure, point = "double-butterfly", "acceleration", "pole-acceleration"
     things = [*walk(drawn(scene).figures[figure].children)]
     at = next(thing.centre for thing in walk(next(one for one in things if isinstance(one, Group) and one.id == point)
-                                             .children) if isinstance(thing, Circle))  # fmt: skip
+                                             .children) if isinstance(thing, Circle))
     index = next(i for i, one in enumerate(things) if isinstance(one, Text) and one.id == f"label-{point}")
     near = text_box(things[index]).nearest(at)
     way = shapely.LineString([(z.real, z.imag) for z in (at + 0.45 * (near - at) / abs(near - at), near)])

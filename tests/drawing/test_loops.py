@@ -16,7 +16,7 @@ from graphkin.drawing.ink.primitives import Arc, Group, Line, Text, walk
 from graphkin.errors import CallError
 
 SCENES = ("shaper-scheme-2", "sixbar-coupler-1A", "single-flier", "double-butterfly", "hydraulic-cylinder",
-          "oldham-coupling", "scotch-yoke", "cam-eccentric-flat-rocker")  # fmt: skip
+          "oldham-coupling", "scotch-yoke", "cam-eccentric-flat-rocker")
 DRAWN = ("shaper-scheme-2", "sixbar-guide-40deg")
 
 
@@ -68,7 +68,7 @@ def test_arrows_on_paper_are_tip_to_tail_and_close(name: str) -> None:
 def test_an_angle_stands_at_the_tail_of_its_vector_in_the_sense_of_it(name: str, turned: set[str]) -> None:
     figure = graphkin.draw(name, figures=["loops"]).figures["loops"]
     vectors = [x for g in walk(figure.children) if isinstance(g, Group) and "loop" in g.classes
-               for x in g.children if isinstance(x, Line)]  # fmt: skip
+               for x in g.children if isinstance(x, Line)]
     arcs = [x for x in walk(figure.children) if isinstance(x, Arc)]
     assert arcs
     for arc in arcs:

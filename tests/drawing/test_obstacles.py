@@ -20,7 +20,7 @@ LINE, BOX = ((20 - 5j, 20 + 40j),), (Box(48.0, 48.0, 52.0, 52.0),)
     (Obstacles(dashed=LINE), 1),
     (Obstacles(solid=LINE, areas=BOX), 2),
     (Obstacles(solid=LINE, areas=(*BOX, Box(70.0, 70.0, 90.0, 90.0))), None),
-])  # fmt: skip
+])
 def test_a_box_takes_the_first_of_its_places_on_which_nothing_stands(around, index):
     assert [index] == first_free([PLACES], [HALF], around, 0.5)
 

@@ -67,7 +67,7 @@ def test_no_line_runs_through_a_stroke_an_angle_or_the_swing(name: str) -> None:
         thing.string: text_box(thing)
         for group in drawing.children if group.id == "answers"
         for thing in walk(group.children) if isinstance(thing, Text)
-    }  # fmt: skip
+    }
     assert boxes
     struck = [words for words, box in boxes.items() if any(box.clip(*line) for line in (*ink.solid, *ink.dashed))]
     assert [] == struck
@@ -130,7 +130,7 @@ def cam_with_dwells() -> Drawing:
             {"to": 60, "rise": 20, "by": "345"}, {"to": 160}, {"to": 340, "fall": 20, "by": "345"}, {"to": 360},
         ]}},
         "driver": {"link": "1", "angle": 30, "omega": 10},
-    }  # fmt: skip
+    }
     return graphkin.draw(scene, figures=["positions"]).figures["positions"]
 
 
@@ -166,7 +166,7 @@ STOPPED = {
         "5": {"points": ["G", "E"], "length": 40},
     },
     "driver": {"link": "1", "angle": 160, "omega": 10},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("scene", "wanted"), [
@@ -175,7 +175,7 @@ STOPPED = {
         "未画极限位置（ψ1：属于整个循环，但原动件是移动的）。",
     }),
     (STOPPED, {"No limit positions are drawn (ψ3: driver 1 at 389.926435 deg: the motion does not reach it)."}),
-])  # fmt: skip
+])
 def test_why_no_limit_positions_are_drawn_is_said_whole_in_both_languages(
     scene: dict[str, object], wanted: set[str]
 ) -> None:

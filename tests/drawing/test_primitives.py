@@ -35,7 +35,7 @@ LEAVES = {
              Text(10 + 21j, plain("B"), "middle", "#000000", "b", ("c",), 3)),
     "scan": (Scan(0j, 1 + 0j, 2, 2, "image/png", b"", (0j, 2 + 2j)),
              Scan(10 + 20j, 1 + 0j, 2, 2, "image/png", b"", (10 + 20j, 12 + 22j))),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("before", "after"), LEAVES.values(), ids=LEAVES)

@@ -27,7 +27,7 @@ def vectors(paths: list[tuple[str, list[complex]]]) -> np.ndarray:
     return np.array([
         head[0] - line[0] for (stroked, line), (filled, head) in pairwise(paths)
         if (stroked, len(line), filled, len(head)) == ("S", 2, "f", 3)
-    ])  # fmt: skip
+    ])
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -83,7 +83,7 @@ def test_a_sheet_that_goes_on_is_one_pdf_of_two_pages(tmp_path):
 
 @pytest.mark.parametrize(("name", "at", "diagram"), [
     ("shaper-scheme-2", 151, "acceleration"), ("double-butterfly", 33, "velocity"),
-])  # fmt: skip
+])
 def test_small_vectors_near_each_other_share_an_inset(name, at, diagram):
     (detail,) = details(draw(name, at=at, figures=[]).checked.sheet, diagram)
     assert len(detail.vectors) == 2
@@ -192,7 +192,7 @@ def test_lengths_are_given_however_short_and_what_rounding_leaves_is_none():
         "links": {"1": {"points": ["A", "B"], "length": 150}, "3": {"points": ["C", "D"], "length": 300},
                   "2": {"points": ["B", "C"], "length": 500, "at": {"E": [0.5, 0], "F": [1e-13, 0]}}},
         "driver": {"link": "1", "angle": 60, "omega": 10}, "sketch": {"C": [420, 290]},
-    })  # fmt: skip
+    })
     given = {str(name): value for name, value in given_lengths(scene, notation_of(draft(scene), "chinese"))}
     assert "0.5" == given["l_BE"]
     assert {"l_BF"} == {f"l_{p}{q}" for p in "BC" for q in "EF"} - set(given)
@@ -200,13 +200,13 @@ def test_lengths_are_given_however_short_and_what_rounding_leaves_is_none():
 
 @pytest.mark.parametrize(("scene", "value"), [
     ("sixbar-1A-last-link", "−84.247°"), ("loader-cylinder", "s76=180"), ("loader-cylinder", "70°"),
-])  # fmt: skip
+])
 def test_the_value_of_a_driver_stands_in_the_mechanism_of_the_sheet_and_of_its_own_figure(scene, value):
     drawn = draw(scene)
     for figure, box in (("sheet", sheet_plan(drafted(scene)[1]).mechanism), ("mechanism", None)):
         texts = [thing for thing in walk(drawn.figures[figure].children) if isinstance(thing, Text)]
         found = [text.at for text in texts if value in text.string.replace(" ", "") and "," not in text.string
-                 and (box is None or box.distance(text.at) == 0.0)]  # fmt: skip
+                 and (box is None or box.distance(text.at) == 0.0)]
         assert 1 == len(found)
 
 
@@ -219,7 +219,7 @@ def test_a_guide_that_its_panel_cuts_keeps_its_letter(high, angle):
         "pins": {"B": {"of": "1", "in": "2.s"}},
         "driver": {"link": "1", "angle": angle, "omega": 5},
         "sketch": {"C": [112, high + 5], "B": [10, 70]},
-    })  # fmt: skip
+    })
     sheet = draft(scene, room=sheet_room(scene))
     room = sheet_plan(sheet).mechanism.grown(-0.8)
     whole, box = mechanism_piece(sheet, notation_of(sheet, "chinese"))
@@ -269,7 +269,7 @@ def test_a_cam_larger_than_its_panel_is_cut_at_the_edge():
             {"to": 100, "rise": 16, "by": "cycloidal"}, {"to": 200}, {"to": 300, "fall": 16, "by": "345"},
             {"to": 360}]}},
         "driver": {"link": "1", "angle": 150, "omega": 9},
-    }  # fmt: skip
+    }
     groups = (thing for thing in walk(draw(scene).figures["sheet"].children) if isinstance(thing, Group))
     (cam,) = (group for group in groups if group.id == "cam-1")
     outline = [z for thing in walk(cam.children) if isinstance(thing, Polyline) for z in thing.points]
@@ -286,7 +286,7 @@ def test_numbers_of_the_divisions_of_a_short_fall_keep_off_each_other(violations
             {"to": 80, "rise": 20, "by": "345"}, {"to": 245}, {"to": 260, "fall": 20, "by": "cycloidal"},
             {"to": 360}]}},
         "driver": {"link": "1", "angle": 20, "omega": 5},
-    }  # fmt: skip
+    }
     assert [] == violations(draw(scene, figures=["cam"]).figures["cam"].content("svg"))
 
 
@@ -299,6 +299,6 @@ def test_equations_with_names_as_long_as_they_may_be_stand_on_further_pages(lett
             crank: {"points": [a, b], "length": 60}, block: {"points": [b], "on": guide}, guide: {"points": [c]},
         },
         "driver": {"link": crank, "angle": 20, "omega": 8, "alpha": 3},
-    }  # fmt: skip
+    }
     told = {text.replace(" ", "") for text in pages(draw(scene, figures=["sheet"], convention="us"))}
     assert set() == {f"A{b}{guide}", f"A{b}{guide}/{b}{block}c"} - told

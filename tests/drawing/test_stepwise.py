@@ -74,7 +74,7 @@ def test_a_file_leaves_unsaid_since_when_a_name_is_there_and_a_page_of_steps_say
     ("four-bar-coupler-point", "acceleration", "a_C", 25),
     ("loader-cylinder", "mechanism", "dimensions", 7),  # a special point is found in 12, when the polygons have begun
     ("four-bar-coupler-point", "mechanism", "omega-3", 12),
-])  # fmt: skip
+])
 def test_a_part_is_there_from_the_step_on_that_finds_it(name, diagram, part, step):
     _, layers = _layers(name, diagram)
     assert {part: step} == {t.id: t.step for t in walk(layers) if isinstance(t, Group) and t.id == part}

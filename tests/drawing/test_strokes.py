@@ -59,7 +59,7 @@ FOUND = {(0.7, ())}  # the mechanism or the profile that a construction finds
 @pytest.mark.parametrize("figure", [
     "cam-offset-roller/cam", "cam-swinging-zh/cam", "cam-flat-face/cam", "design-crank-rocker-zh/design",
     "design-guide-bar/design", "design-slider-crank/design", "design-three-places/design", "gear-train-epicyclic/plan",
-])  # fmt: skip
+])
 def test_cams_syntheses_and_trains_are_drawn_in_the_kinds_of_lines_of_all_figures(figure: str) -> None:
     svg = (Path(__file__).parents[2] / "figures" / f"{figure}.svg").read_text(encoding="utf-8")
     drawn = set()

@@ -137,7 +137,7 @@ HIGHER = (
     "cam-eccentric-flat-rocker", "cam-eccentric-flat-slider", "cam-flat-face", "cam-offset-roller",
     "cam-swinging-roller", "disc-on-disc", "geared-five-bar", "gears-epicyclic", "geneva-step",
     "hypocycloid-straight-line", "wheel-on-rail",
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize("name", [*HIGHER, "elliptic-trammel", "loader-cylinder", "scissor-lift", "whitworth"])
@@ -204,7 +204,7 @@ def test_a_wheel_that_rolls_is_replaced_by_no_block() -> None:
 
 def test_a_block_without_points_is_taken_apart_and_handed_out() -> None:
     scene = {"frame": {"guides": {"g": {"through": [0, 0], "angle": 0}}}, "links": {"1": {"on": "0.g"}},
-             "driver": {"slide": "1", "travel": 20, "velocity": 30}}  # fmt: skip
+             "driver": {"slide": "1", "travel": 20, "velocity": 30}}
     figure = graphkin.draw(scene, figures=("structure",)).figures["structure"]
     assert "driver 1 with the frame: class I" in svg_bytes(figure).decode()
     assert 1 == len(graphkin.handout(scene, formats=("html",)).lesson.stages)

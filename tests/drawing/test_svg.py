@@ -75,7 +75,7 @@ def test_svgwrite_finds_an_attribute_that_an_element_does_not_have():
 
 @pytest.mark.parametrize("asked", [
     "'whitworth', figures=('velocity', 'centres')", "'shaper-forces', figures=['centres'], language='both'",
-])  # fmt: skip
+])
 def test_another_process_writes_the_same_bytes(asked):
     program = (
         f"import sys, graphkin; pages = graphkin.draw({asked}).figures.values();"
@@ -225,7 +225,7 @@ def test_words_of_a_figure_in_a_page_stay_as_they_are_though_they_look_like_its_
 def test_what_goes_without_saying_is_not_said_in_a_page():
     svg = svg_element(Drawing(9.0, 9.0, (Text(1 + 1j, plain("B", 3.5)), Polygon((0j, 1j, 1 + 0j)))))
     assert svg.endswith('<text font-size="3.5" x="1" y="1"><tspan>B</tspan></text>'
-                        '<polygon points="0,0 0,1 1,0"/></svg>')  # fmt: skip
+                        '<polygon points="0,0 0,1 1,0"/></svg>')
 
 
 def test_a_text_of_one_run_ends_at_its_place_though_the_run_begins_beside_it():
@@ -237,7 +237,7 @@ def test_in_a_page_a_run_of_other_letters_than_its_text_has_its_size_and_face():
     runs = Run("2", 0.0, 0.0, 2.5), Run("B", 2.0, 0.0, 3.5, bold=True)
     svg = svg_element(Drawing(9.0, 9.0, (Text(1 + 1j, runs),)))
     assert svg.endswith('<text font-size="3.5" x="1" y="1"><tspan font-size="2.5" x="1" y="1">2</tspan>'
-                        '<tspan font-size="3.5" font-weight="bold" x="3" y="1">B</tspan></text></svg>')  # fmt: skip
+                        '<tspan font-size="3.5" font-weight="bold" x="3" y="1">B</tspan></text></svg>')
 
 
 def test_letters_as_outlines_stand_at_the_place_of_their_text():

@@ -75,7 +75,7 @@ def test_points_on_a_line_have_no_area():
 
 def test_the_area_of_a_link_is_a_light_tint_of_its_colour():
     (link,) = [one for one in walk(draw("four-bar-coupler-point", figures=["mechanism"]).figures["mechanism"].children)
-               if isinstance(one, Group) and one.id == "link-2"]  # fmt: skip
+               if isinstance(one, Group) and one.id == "link-2"]
     area = next(one for one in link.children if isinstance(one, Polygon))
     assert strokes.tint(area.stroke.colour) == area.fill
 

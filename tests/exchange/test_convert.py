@@ -57,7 +57,7 @@ PMKS_PLUS = address(
     [shared_joint("A", 6, A), shared_joint("B", 0, B), shared_joint("C", 0, C), shared_joint("D", 4, D),
      shared_joint("E", 16, E)],
     [shared_link("AB"), shared_link("BCE"), shared_link("CD")],
-)  # fmt: skip
+)
 TABLE = f"""link ids, type, x, y
 ground,input R {A.real} {A.imag}
 input,coupler R {float(B.real)!r} {float(B.imag)!r}
@@ -104,7 +104,7 @@ PYLINKAGE = {
         {"id": "rocker", "type": "link", "joints": ["C", "D"]},
     ],
     "ground": "ground",
-}  # fmt: skip
+}
 OLDER = {
     "name": "crank-rocker",
     "joints": [
@@ -117,7 +117,7 @@ OLDER = {
         {"type": "Fixed", "name": "E", "joint0": "B", "joint1": "C", "distance": abs(E - B),
          "angle": float(np.angle((E - B) / (C - B)))},
     ],
-}  # fmt: skip
+}
 GEOGEBRA = """<?xml version="1.0"?><geogebra format="5.0"><construction title="">
 {points}
 <command name="Circle"><input a0="A" a1="150"/><output a0="c"/></command>
@@ -150,7 +150,7 @@ def geogebra() -> bytes:
 FILES: dict[str, str | bytes] = {
     "a.txt": PMKS_PLUS, "b.csv": TABLE, "c.linkage2": LINKAGE, "d.pyslvs": PYSLVS, "e.json": json.dumps(PYLINKAGE),
     "f.json": json.dumps(OLDER), "g.ggb": geogebra(),
-}  # fmt: skip
+}
 LEFT = {"c.linkage2": ("connector F (no link has it)",), "g.ggb": ("Bezier q",)}
 RATE = {"a.txt": math.tau / 3}
 
@@ -194,7 +194,7 @@ def test_every_point_lies_where_the_file_has_it(file: Path) -> None:
     scene = convert(file).scene
     solved = graphkin.solve(scene)
     found = [complex(solved[p][0]) if p not in scene.frame.points else complex(*scene.frame.points[p])
-             for p in points_of(scene)]  # fmt: skip
+             for p in points_of(scene)]
     close = 1e-3 if file.name == "a.txt" else 1e-9
     assert [pytest.approx(z, abs=close) for z in PLACES.values()] == found
 
@@ -244,17 +244,17 @@ SLIDER = address(
     [shared_joint("A", 6, 0j), shared_joint("B", 0, 3 + 4j), shared_joint("C", 0, 15 + 1j),
      shared_joint("D", 21, 15 + 1j, in_base_64(0))],
     [shared_link("AB"), shared_link("BC"), shared_link("CD", "P")],
-)  # fmt: skip
+)
 SLOT = address(
     [shared_joint("A", 6, 0j), shared_joint("B", 0, 3 + 4j), shared_joint("C", 4, 10 + 0j),
      shared_joint("D", 0, -4 + 8j), shared_joint("P", 17, 3 + 4j, "0,CD,C,D")],
     [shared_link("AB"), shared_link("CD"), shared_link("BP", "P")],
-)  # fmt: skip
+)
 RAM = address(
     [shared_joint("O", 4, 0j), shared_joint("C", 0, 4j), shared_joint("G", 4, 3 + 0j), shared_joint("N", 0, 2 + 1.5j),
      shared_joint("P", 8, 1.5 + 2j), shared_joint("S", 51, 1.5 + 2j, "0,GN,G,N")],
     [shared_link("OC"), shared_link("GN"), shared_link("PC"), shared_link("PS", "P")],
-)  # fmt: skip
+)
 
 
 @pytest.mark.parametrize(("shared", "kinds"), [(SLIDER, ["RRP"]), (SLOT, ["RPR"]), (RAM, ["RPR"])])
@@ -268,7 +268,7 @@ def test_slides_slots_and_cylinders_of_pmks_are_sliding_pairs(shared: str, kinds
 SLIDER_IN_ITS_RECORD = address(
     [shared_joint("A", 6, 0j), shared_joint("B", 0, 3 + 4j), shared_joint("C", 5, 15 + 1j, "0,,,,,0")],
     [shared_link("AB"), shared_link("BC")],
-)  # fmt: skip
+)
 
 
 def test_a_slider_of_pmks_that_no_block_names_is_refused_by_name():
@@ -458,7 +458,7 @@ def test_what_runs_on_the_line_of_a_link_of_pylinkage_is_a_pin_in_its_slot(tmp_p
         *OLDER["joints"][:4],
         {"type": "Fixed", "name": "F", "joint0": "B", "joint1": "C", "distance": 100.0, "angle": 0.5},
         {"type": "Linear", "name": "S", "joint0": "F", "joint1": "D", "joint2": "C", "x": 435.0, "y": 150.0},
-    ]  # fmt: skip
+    ]
     (tmp_path / "a.json").write_text(json.dumps({"joints": joints}))
     made = read_bodies(str(tmp_path / "a.json"))
     assert {"0": [*"AD"], "AB": [*"AB"], "BCF": [*"BCF"], "DC": [*"DC"], "FS": [*"FS"]} == made.bodies
@@ -475,7 +475,7 @@ def test_a_pin_in_two_slots_is_not_written_with_the_first_of_them_alone(tmp_path
         },
         "pins": {"P": {"of": "2", "in": ["1", "0.v"]}},
         "driver": {"link": "1", "angle": 30, "omega": 2},
-    }  # fmt: skip
+    }
     with pytest.raises(CallError, match="slide of 2 on 0: would be lost"):
         convert(scene, out=tmp_path / f"a{ending}")
 
@@ -491,7 +491,7 @@ def save(path: Path, places: dict[str, complex], commands: Sequence[tuple[str, s
 
 
 MOVED = [("Circle", "A 2", "c"), ("Point", "c", "B"), ("Circle", "B 4.5", "d"), ("Circle", "D 4.1", "e"),
-         ("Intersect", "d e", "C")]  # fmt: skip
+         ("Intersect", "d e", "C")]
 
 
 @pytest.mark.parametrize(
@@ -518,7 +518,7 @@ def test_corners_midpoints_and_points_on_segments_of_geogebra_are_points_of_the_
 
 def test_a_point_of_geogebra_that_is_pulled_along_a_fixed_line_drives(tmp_path: Path):
     trammel = [("Segment", "A B", "f"), ("Line", "A D", "g"), ("Point", "f", "C"), ("Circle", "C 5", "c"),
-               ("Intersect", "g c", "E"), ("Segment", "C E", "h"), ("Point", "f", "F")]  # fmt: skip
+               ("Intersect", "g c", "E"), ("Segment", "C E", "h"), ("Point", "f", "F")]
     save(tmp_path / "a.ggb", {"A": 0j, "B": 9, "D": 9j, "C": 4, "E": 3j, "F": 8}, trammel)
     read = convert(tmp_path / "a.ggb")
     assert ("point F (nothing holds it)",) == tuple(map(str, read.left))
@@ -574,7 +574,7 @@ PRISMATIC = {
         {"id": "c", "type": "prismatic", "position": [5, 0], "line_point": [0, 0], "axis": [1, 0]},
     ],
     "links": [{"id": "l1", "type": "arc_driver", "joints": ["a", "b"], "angular_velocity": 2}],
-}  # fmt: skip
+}
 
 
 def test_a_prismatic_joint_of_pylinkage_runs_on_its_line_or_is_lost(tmp_path: Path) -> None:

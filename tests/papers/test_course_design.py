@@ -25,7 +25,7 @@ def _file(folder, text, name="names.csv"):
 
 def test_one_report_without_a_class_stands_at_the_position_asked_for(tmp_path):
     done = command.run("handout", SCENE, "--template", "course-design", "--at", "75", "--lang", "both",
-                       "--positions", "4", "-o", "out", cwd=tmp_path)  # fmt: skip
+                       "--positions", "4", "-o", "out", cwd=tmp_path)
     assert 0 == done.returncode, done.stderr
     names = {"report.html", "report.pdf", "class.html", "class.pdf", "class.csv", "answers_template.csv"}
     assert names == {path.name for path in (tmp_path / "out").iterdir()}

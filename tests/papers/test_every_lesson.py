@@ -78,7 +78,7 @@ def test_the_image_of_a_link_that_does_not_turn_is_one_point():
             "2": {"points": ["B", "C"], "length": 80, "at": {"M": [40, 30]}},
         },
         "driver": {"link": "1", "angle": 70, "omega": 4, "alpha": 3}, "sketch": {"C": [97, 47]},
-    }  # fmt: skip
+    }
     page = handout(cranks, language="en", formats=("html",), positions=1).files["handout.html"].decode()
     said = re.sub("<[^>]*>", "", page)
     assert "Image of link 2: b and c fall together, so the image is one point: m lies there too" in said

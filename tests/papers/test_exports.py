@@ -128,7 +128,7 @@ def test_every_question_says_what_is_joined_to_what_and_what_its_figure_shows(fi
      ("cam-flat-face", "zh", "O 是凸轮 1 与从动件接触处的曲率中心。"),
      ("gears-epicyclic", "zh", "齿轮 1 与齿轮 3 啮合，其轴线在构件 2 上。"),
      ("geneva-step", "en", "Point B of link 1 runs in a slot of link 2.")],
-)  # fmt: skip
+)
 def test_a_question_tells_its_structure_and_the_law_of_its_cam(scene, language, said):
     made = graphkin.handout(scene, formats=("html",), positions=1, exports=("gift",), language=language)
     assert said in re.sub("<[^>]+>", "", made.question.html)
@@ -165,7 +165,7 @@ def test_a_prairielearn_folder_asks_grades_and_answers_slips(made, files, tmp_pa
 
 def test_a_set_of_variants_becomes_one_bank(tmp_path):
     done = run("handout", "slider-crank-offset", "--variants", "2", "--seed", "4", "--format", "html", "--lang", "zh",
-               "--export", "moodle,gift", "--workers", "1", "-o", str(tmp_path / "set"))  # fmt: skip
+               "--export", "moodle,gift", "--workers", "1", "-o", str(tmp_path / "set"))
     assert 0 == done.returncode, done.stderr
     quiz = ElementTree.parse(tmp_path / "set" / "moodle.xml").getroot()
     assert 2 == len(quiz.findall("question[@type='cloze']"))

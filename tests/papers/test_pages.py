@@ -139,7 +139,7 @@ def test_every_velocity_plan_is_a_figure_of_the_solution_on_paper(found_later):
     figures = (block for block in laid_out(solution(lesson).blocks) if isinstance(block, Picture))
     captions = [str(words) for figure in figures for _, words in figure.caption]
     plans = ["Figure 2. Velocity plan", "Figure 4. Velocity plan",
-             "Figure 5. Plan of tangential accelerations", "Figure 7. Plan of tangential accelerations"]  # fmt: skip
+             "Figure 5. Plan of tangential accelerations", "Figure 7. Plan of tangential accelerations"]
     assert plans == [caption for caption in captions if "lan" in caption]
 
 

@@ -31,7 +31,7 @@ def _words(document) -> str:
     return re.sub("<[^>]*>", "", document_page(document).split("</style>")[1])
 
 
-# -- problem sheet
+# problem sheet
 
 
 def test_the_problem_sheet_shows_nothing_that_is_asked(shaper):
@@ -142,7 +142,7 @@ def test_larger_paper_has_larger_figures_unless_the_scene_gives_the_scales():
     assert 10e-3 == pytest.approx(own)
 
 
-# -- solution
+# solution
 
 
 def test_the_solution_has_every_step_once_in_order(shaper):
@@ -161,7 +161,7 @@ def test_the_last_figure_holds_more_than_the_first(shaper):
     assert counts[0] < counts[-1]
 
 
-# -- key
+# key
 
 
 def test_the_key_gives_the_exact_values():
@@ -184,7 +184,7 @@ def test_the_key_as_csv_has_its_rows(shaper):
     assert [r.symbol for r in key_rows(shaper.lesson)] == [r["symbol"] for r in rows]
 
 
-# -- PDF
+# PDF
 
 
 def _pdftotext(pdf: bytes, tmp_path) -> str:
@@ -257,7 +257,7 @@ def test_a_problem_does_not_show_how_a_larger_group_is_placed():
         (2.0, 3.0, 0.0, ("± 3.0", "0.0 … 5.0")), (2.0, 3.0, -math.inf, ("± 3.0", "−1.0 … 5.0")),
         (2.0, 0.0, 0.0, ("–", "–")), (2.0, math.inf, 0.0, ("–", "–")),
     ],
-)  # fmt: skip
+)
 def test_what_is_accepted_lies_as_far_as_a_pencil_may_be_off_on_either_side_to_two_figures(value, off, least, told):
     assert told == accepted(value, off, least)
 
@@ -305,7 +305,7 @@ def test_the_mechanism_and_the_frames_of_both_polygons_stand_clear_of_each_other
 
 @pytest.mark.parametrize(("name", "told"), [
     ("wheel-on-rail", "Draw from the poles p, p′."), ("gears-epicyclic", "Draw from the pole p."),
-])  # fmt: skip
+])
 def test_one_pole_is_a_pole_and_two_are_poles(name, told):
     problem = handout(name, language="en", formats=("html",), positions=1).files["problem.html"].decode()
     assert told in re.sub("<[^>]*>", "", problem)

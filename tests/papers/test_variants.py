@@ -335,7 +335,7 @@ def test_what_a_killed_process_left_half_written_is_removed(tmp_path):
 
 def test_a_killed_set_goes_on(tmp_path):
     call = [sys.executable, "-c", "from graphkin.cli import main; main()", "handout", FOUR_BAR, "--variants", "4",
-            "--format", "html", "--workers", "2", "-q", "-o", str(tmp_path)]  # fmt: skip
+            "--format", "html", "--workers", "2", "-q", "-o", str(tmp_path)]
     first = subprocess.Popen(call, start_new_session=True)
     deadline = time.monotonic() + 60
     while not list(tmp_path.glob("*-01.toml")) and time.monotonic() < deadline:

@@ -167,7 +167,7 @@ def _get(made, key):
         ("geared-five-bar", "gears.g.teeth.1"), ("cam-swinging-roller", "cams.1.law.0.to"),
         ("cam-swinging-roller", "cams.1.law.0.rise"), ("cam-swinging-roller", "cams.1.roller"),
     ],
-)  # fmt: skip
+)
 def test_discs_wheels_and_cams_vary(name, key):
     assert len(set(_drawn(name, key))) > 3
     assert 1 == len(set(_drawn(name, key, only=True)))
@@ -245,7 +245,7 @@ def test_a_variant_whose_driver_follows_from_the_speed_of_a_point_agrees_with_it
         },
         "driver": {"link": "1", "angle": 70, "speed": 200, "of": "A", "sense": "clockwise"},
         "find": ["v_B"],
-    }  # fmt: skip
+    }
     (answer,) = examined(crank, None, "01").answers
     (exact,) = [row.exact for row in graphkin.check(crank).report.rows if str(row.symbol) == "v_B"]
     assert ("v_B", pytest.approx(1e3 * abs(exact))) == (answer.symbol, answer.value)
@@ -262,6 +262,6 @@ def test_an_angle_of_a_driver_with_a_law_stays_within_the_law():
 
 def test_a_range_narrower_than_a_step_is_drawn_in_finer_ones():
     lengths = {candidate(_source(ranges={"links.1.length": [40, 40.5]}), Spread(), 0, number, 0)["links"]["1"]["length"]
-               for number in range(12)}  # fmt: skip
+               for number in range(12)}
     assert 3 < len(lengths)
     assert 40 <= min(lengths) <= max(lengths) <= 40.5

@@ -190,7 +190,7 @@ def test_no_two_labels_of_the_chart_overlap_on_any_machine(seed: int, language: 
 
 @pytest.mark.parametrize(("kind", "cost", "error"), [
     ("velocity", "velocity_cost", "velocity_error"), ("acceleration", "acceleration_cost", "acceleration_error"),
-])  # fmt: skip
+])
 def test_every_method_is_a_point_of_the_chart(kind: str, cost: str, error: str) -> None:
     race = _spread(raced())
     panel = next(axes for axes in race_page(race).figure().axes if axes.get_gid() == f"speed-{kind}")
@@ -198,7 +198,7 @@ def test_every_method_is_a_point_of_the_chart(kind: str, cost: str, error: str) 
     assert shown == {
         (getattr(e, cost), max(getattr(e, error), 1.5e-19)) for e in race.entries
         if getattr(e, error) is not None and getattr(e, error) <= 10.0
-    }  # fmt: skip
+    }
 
 
 def test_the_table_has_a_row_for_every_method_and_the_floor() -> None:
@@ -248,6 +248,6 @@ def test_every_number_of_what_is_concluded_is_one_of_the_chart(seed: int) -> Non
 
 def test_a_moving_link_without_a_point_is_told_to_want_one():
     block = {"frame": {"name": "0", "guides": {"h": {"through": [0, 0], "angle": 0}}}, "links": {"1": {"on": "0.h"}},
-             "driver": {"slide": "1/0", "travel": 10, "velocity": 5}}  # fmt: skip
+             "driver": {"slide": "1/0", "travel": 10, "velocity": 5}}
     with pytest.raises(CallError, match="nothing moves that could be looked at; give a moving link a point"):
         graphkin.speed_accuracy(block, repeats=1)

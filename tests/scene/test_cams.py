@@ -108,5 +108,5 @@ def test_a_guide_through_the_axis_has_no_offset_but_rounding():
         "cams": {"1": {"follower": "2", "base": {"r": 40}, "law": [
             {"to": 180, "rise": 20, "by": "345"}, {"to": 360, "fall": 20, "by": "cycloidal"}]}},
         "driver": {"link": "1", "angle": 20, "omega": 5},
-    }  # fmt: skip
+    }
     assert 0.0 == mechanism_of(made).cams[0].motion.offset

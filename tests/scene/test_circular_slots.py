@@ -90,7 +90,7 @@ def test_it_is_among_the_given_data(scene: dict[str, Any], language: str, told: 
         (with_block(), ["Link 2 joins B, C.", "Link 3 joins C.",
                         "Point C of link 3 runs in a circular slot of link 0 about M."]),
     ],
-)  # fmt: skip
+)
 def test_a_figure_is_described_with_it(scene: dict[str, Any], told: list[str]) -> None:
     assert ["The fixed link 0 has the points A, M.", "Link 1 joins A, B.", *told] == structure_words(
         mechanism_of(scene), "en")
@@ -180,7 +180,7 @@ def test_a_slot_off_the_way_to_what_is_asked_is_left_alone() -> None:
             "3": {"points": ["C", "D"], "length": 150}, "4": {"points": ["C", "G"], "length": 150},
         },
         "pins": {"G": {"of": "4", "in": "0.h"}}, "driver": {"link": "1", "angle": 50, "omega": 3}, "find": ["v_C"],
-    }  # fmt: skip
+    }
     result = graphkin.check(scene)
     assert (True, True) == (result.ok, "v_G" not in [row["symbol"] for row in result.data["readings"]])
 
@@ -194,7 +194,7 @@ def test_two_pins_in_one_slot_run_each_on_its_own_tangent() -> None:
         },
         "pins": {"C": {"of": "3", "in": "0.h"}, "E": {"of": "3", "in": "0.h"}},
         "driver": {"link": "1", "angle": 50, "omega": 3},
-    }  # fmt: skip
+    }
     assert graphkin.check(scene).ok
 
 

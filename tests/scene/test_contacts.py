@@ -205,7 +205,7 @@ def inside(first, second):
     ((-10, 15), "contacts.K.between: the hollow outline 1.k is no larger than what is in it; its radius must be the "
      "larger one"),
     ((15, 15), "contacts.K.side: both radii are equal; inside, one must be smaller than the other"),
-])  # fmt: skip
+])
 def test_radii_that_do_not_touch_inside_are_told_in_one_sentence(radii, sentence):
     with pytest.raises(SceneError) as told:
         mechanism_of(inside(*radii))

@@ -124,7 +124,7 @@ def test_a_driven_slide_is_given_in_the_unit_of_speeds() -> None:
     given = graphkin.read("hydraulic-cylinder").to_dict()
     driver = given["driver"] if isinstance(given["driver"], dict) else given["driver"][0]
     metres = {**given, "units": {"length": "mm", "speed": "m/s"},
-              "driver": {**driver, "velocity": driver["velocity"] / 1000}}  # fmt: skip
+              "driver": {**driver, "velocity": driver["velocity"] / 1000}}
     assert mechanism_of(given).drivers[0].values == pytest.approx(mechanism_of(metres).drivers[0].values, rel=1e-12)
     again = mechanism_of(as_mapping(mechanism_of(metres))).drivers
     assert mechanism_of(metres).drivers[0].values == pytest.approx(again[0].values, rel=1e-12)

@@ -81,7 +81,7 @@ STROKE = LoadPhase(stroke="6/1", sense=-1.0, start=0.0, end=0.9)
          [(False, False), (True, False), (True, False), (False, False)]),
         (LoadPhase(start=0.0, end=math.tau), True, [0.0, 3.0], [(True, False), (True, False)]),
     ],
-)  # fmt: skip
+)
 def test_a_load_acts_between_two_values_of_the_driver(
     phase: LoadPhase, turns: bool, value: list[float], expected: list[tuple[bool, bool]]
 ) -> None:
@@ -100,7 +100,7 @@ def test_a_load_on_a_stroke_acts_in_one_sense_and_jumps_where_both_meet() -> Non
 @pytest.mark.parametrize(("measure", "size"), [
     (Measure("angle", angle=1), 1.0), (Measure("length", length=1), 0.5), (Measure("velocity", length=1, order=1), 1.5),
     (Measure("angular acceleration", angle=1, order=2), 20.0), (Measure("third rate", length=1, order=3), 30.0),
-])  # fmt: skip
+])
 def test_values_of_motion_are_as_large_as_the_rates_of_the_drivers_make_them(measure: Measure, size: float) -> None:
     assert size == measure.usual(0.5, rate=3.0, second=20.0)
 

@@ -315,7 +315,7 @@ def test_a_rate_whose_square_is_lost_is_refused(key):
     ("30 lb-in", "M_2", 30 * 4.4482216152605 * 0.0254), ("30 ft-lb", "M_2", 30 * 4.4482216152605 * 0.3048),
     ("30 lb ft", "M_2", 30 * 4.4482216152605 * 0.3048), ("30 lbs", "F_1/2", 30 * 4.4482216152605),
     ("2 in the clockwise sense", "omega_3", -2.0), ("480 in direction -x", "v_B", 0.48),
-])  # fmt: skip
+])
 def test_an_inch_is_a_unit_and_no_word_beside_a_value(cell: str, name: str, value: float) -> None:
     # in a scene in mm "3.2 in" was 3.2 mm
     assert value == pytest.approx(read_cell(cell, Symbol.parse(name), Units(speed="mm/s")).value)

@@ -438,7 +438,7 @@ PARALLEL = changed(
     FOUR_BAR, ("length = 150", "length = 300"), ("length = 500", "length = 400"),
     ("[driver]", '[links.5]\npoints = ["G", "H"]\nlength = 300\nat = { P = [50, 0] }\nredundant = true\n[driver]'),
     ("D = [400, 0]", "D = [400, 0], G = [200, 0]"), ("E = [100, 50]", "E = [100, 50], H = [200, 0]"),
-)  # fmt: skip
+)
 IN_TURN = changed(LOADED, ('on = "5"\nat = "D"', 'on = "5"\nat = "D"\nwhen = HERE'))
 STANDING = changed(FOUR_BAR, (DRIVER, 'link = "1"\ntime = 0.2\nlaw = HERE'))
 CYLINDER = """[frame]

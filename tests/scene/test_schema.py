@@ -47,7 +47,7 @@ WRONG = {
 @pytest.mark.parametrize("tables", [
     '[vary]\nranges = { "links.2.length" = [80, 120] }\n',
     '[scans.velocity]\npoints = { pole = [412, 903], B = [988, 610] }\nread = { C = [1100, 880] }\n',
-])  # fmt: skip
+])
 def test_tables_with_keys_of_any_spelling_keep_the_schema(tables: str) -> None:
     assert valid(FOUR_BAR + tables)
 
@@ -98,6 +98,6 @@ def test_no_key_may_be_null() -> None:
     ("ReadScan", ("scans", "velocity")),
     ("Vary", ("vary",)),
     ("NoneType", ("links", "2", "points")),
-])  # fmt: skip
+])
 def test_the_table_at_a_place_follows_from_the_types_of_the_file(table, loc):
     assert table == getattr(SCENE.table_at(loc), "__name__", type(None).__name__)

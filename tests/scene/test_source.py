@@ -184,7 +184,7 @@ def test_a_pipe_instead_of_a_file_is_told_and_not_waited_for(table: str, tmp_pat
         f"x = {'{ a = ' * 40}1{' }' * 40}", f's = """\n" ]] \'\n"""\nx{".a" * 40} = 1',
         f'x{"."}"a"' + '."a"' * 40 + " = 1",
     ],
-)  # fmt: skip
+)
 def test_what_is_nested_deeply_is_not_parsed(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(texts.tomllib, "loads", None)
     assert "the file: is nested too deeply" in sentence_of_text(text)
@@ -199,7 +199,7 @@ def test_what_is_nested_deeply_is_not_parsed(text: str, monkeypatch: pytest.Monk
         "x = 'a\\'\ny = '" + "[" * 40 + "'",
         f"x = \"\\\"{'[' * 40}\"",
     ],
-)  # fmt: skip
+)
 def test_dots_and_brackets_in_texts_and_remarks_are_no_depth(text: str) -> None:
     assert tomllib.loads(text) == texts.parsed(text)
 

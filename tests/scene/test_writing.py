@@ -87,7 +87,7 @@ def test_drivers_in_another_order_or_fewer_are_written_as_they_are(told, kept) -
 
 @pytest.mark.parametrize("told", TOLD, ids=["saying", "mapping"])
 @pytest.mark.parametrize("driver", [{"link": "3", "from": "dead point", "angle": -0.5, "omega": 1, "near": 120},
-                                    {"link": "3", "angle": 86, "omega": 1}])  # fmt: skip
+                                    {"link": "3", "angle": 86, "omega": 1}])
 def test_another_driver_is_written_with_its_dead_point(told, driver) -> None:
     scene = graphkin.read("fourbar-150-500-300-400").replace("driver", driver)
     slower = replace(scene.mechanism, drivers=(scene.mechanism.drivers[0].at_rate(0.5),))

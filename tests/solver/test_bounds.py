@@ -67,7 +67,7 @@ SCENES: dict[str, Any] = {
     )},
     "wheel at its rim": rolling_linkages.wheel_at_its_rim(), "five-bar": rolling_linkages.five_bar_by_its_middle(),
     **{name: name for name in ("cam-offset-roller", "cam-swinging-roller", "geared-five-bar", "double-butterfly")},
-}  # fmt: skip
+}
 FIXED = ("wheel at its rim", "five-bar", "cam-offset-roller", "cam-swinging-roller", "geared-five-bar")
 """Where places cannot change alone: what rolls would come apart, a cam has another profile."""
 
@@ -140,7 +140,7 @@ def test_each_number_that_is_off_moves_the_links_within_the_bound_of_it(name: st
 
 ROLLING = {name: getattr(rolling_linkages, name)() for name in (
     "planet_by_a_rod", "wheel_on_a_rocker", "rack_on_a_rocker",
-)}  # fmt: skip
+)}
 
 
 @cache
@@ -185,7 +185,7 @@ def test_links_that_do_not_close_are_no_farther_off_than_is_told(name: str) -> N
         off[link] = Pose(
             true.z + place / STEP * by[0] * aside[0], true.u * np.exp(1j * place / STEP * by[3]),
             true.v + by[1] * aside[1], true.omega + by[4], true.a + by[2] * aside[2], true.alpha + by[5],
-        )  # fmt: skip
+        )
     exact = 0 * known.drive.value, 0 * known.slack, np.zeros(1, bool)
     told = bounds.error_bounds(replace(known.structure), off, known.drive, exact[1], exact[2], exact[0])
     for link, most in told.items():
@@ -197,7 +197,7 @@ def test_links_that_do_not_close_are_no_farther_off_than_is_told(name: str) -> N
 @pytest.mark.parametrize(("name", "at"), [
     ("cam-offset-roller", 20.0), ("cam-offset-roller", 70.0), ("cam-offset-roller", 200.0),
     ("cam-swinging-roller", 290.0), ("cam-swinging-roller", 160.0),
-])  # fmt: skip
+])
 def test_what_a_law_is_off_moves_the_follower_within_the_bound_of_it(name: str, at: float) -> None:
     scene = mechanism(name)
     scene = replace(scene, drivers=(replace(scene.drivers[0], rate=7.0, second=90.0),))
@@ -285,7 +285,7 @@ def driven_slide(travel: float) -> Mechanism:
         },
         "driver": {"slide": "3", "travel": travel, "velocity": 1},
         "sketch": {"B": [2.9, 0.1]},
-    })  # fmt: skip
+    })
 
 
 @pytest.mark.parametrize("part", [0.05, 0.2, 0.3])

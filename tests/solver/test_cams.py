@@ -26,7 +26,7 @@ def random_cam(seed: int) -> dict:
     ends = sorted(r.uniform(60, 300) for _ in range(3))
     h = r.uniform(8, 20)
     law = [{"to": ends[0], "rise": h, "by": r.choice(LAWS)}, {"to": ends[1]},
-           {"to": ends[2], "fall": h, "by": r.choice(LAWS)}, {"to": 360}]  # fmt: skip
+           {"to": ends[2], "fall": h, "by": r.choice(LAWS)}, {"to": 360}]
     cam = {"follower": "2", "law": law, "sense": sense, "base": {"r": 60, "of": r.choice(("profile", "pitch"))}}
     cam |= {"flat": True} if flat else {"roller": 10} if r.random() < 0.7 else {}
     axis = [r.uniform(-20, 20), r.uniform(-20, 20)]
@@ -115,7 +115,7 @@ def test_a_disc_s_own_law_drawn_back_gives_the_circle():
                                                 {"to": 360, "fall": 2 * e, "by": "harmonic"}],
                        "base": {"r": R - e}, "flat": True}},
         "driver": {"link": "1", "angle": 0, "omega": 1},
-    }).cams[0]  # fmt: skip
+    }).cams[0]
     # the flat face is lifted by e (1 - cos t) by a circle of radius R about a centre e off the axis
     profile = cam_at(cam, np.linspace(0, math.tau, 361)).profile
     centre = (profile[90] + profile[270]) / 2
@@ -142,14 +142,14 @@ def test_what_a_disc_does_to_its_follower_drawn_back_by_inversion_is_the_disc(na
         "links": {"1": {"points": ["A", "O"], "length": e, "discs": {"k": {"centre": "O", "r": R}}}, "2": follower},
         "contacts": {"K": {"between": ["1.k", f"2.{part}"], "side": "outside" if part == "w" else "left"}},
         "sketch": {"B": [60, 60] if "arm" in name else [0, 80]}, "driver": {"link": "1", "angle": 0, "omega": 1},
-    }, sweep=36).motion  # fmt: skip
+    }, sweep=36).motion
     plain = {k: v for k, v in follower.items() if k in ("points", "on", "length")}
     cam = mechanism_of({
         "frame": frame, "links": {"1": {"points": ["A"]}, "2": plain},
         "cams": {"1": {"follower": "2", "law": [{"to": 360}], "base": {"r": 50, "of": "profile"},
                        **({"flat": True} if roller is None else {}), **({"roller": roller} if roller else {})}},
         "sketch": {"B": [60, 60]}, "driver": {"link": "1", "angle": 0, "omega": 1},
-    }).cams[0]  # fmt: skip
+    }).cams[0]
     if "arm" in name:
         line = np.angle(cam.axis - cam.motion.centre)
         told = [cam.motion.side * x for x in (turned.angle("2") - line, turned.omega("2"), turned.alpha("2"))]
@@ -210,7 +210,7 @@ GEARED = {
     "cams": {"1": {"follower": "2", "law": [{"to": 120, "rise": 20, "by": "345"}, {"to": 360, "fall": 20, "by": "345"}],
                    "base": {"r": 30}, "roller": 8}},
     "driver": {"link": "3", "angle": 50, "omega": 6},
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("at", [None, 400])

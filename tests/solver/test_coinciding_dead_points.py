@@ -32,7 +32,7 @@ def chain(distance, side=-1):
             "slide": "1", "from": "dead point", "travel": distance, "near": 30, "velocity": SPEED, "acceleration": PUSH,
         },
         "sketch": {"Q": [80, 30 * side], "R": [115, 40 * side]},
-    }  # fmt: skip
+    }
 
 
 def exact(distance):
@@ -124,7 +124,7 @@ def test_an_arm_moves_on_as_its_cylinder_passes_through_no_length(travel):
         },
         "driver": {"slide": "2", "travel": 60, "velocity": 10},
         "sketch": {"B": [60, 50]},
-    }  # fmt: skip
+    }
     [position] = graphkin.solve(scene, at=travel).data["positions"]
     # the cylinder is a chord of the circle about A, on which C lies
     angle = 2 * math.asin(travel / 160)
@@ -149,7 +149,7 @@ def test_a_parallelogram_goes_on_turning_beside_a_kite_that_closes_after_two_tur
         },
         "driver": {"link": "1", "angle": 20, "omega": 3},
         "sketch": {"C": [107, 54], "E": [52, 124], "F": [187, 54]},
-    }  # fmt: skip
+    }
     turn = graphkin.sweep(scene, positions=7, find=["omega_7"])
     assert [3] * 7 == pytest.approx(list(turn["omega_7"]))
     assert 2 == turn.data["driver"]["turns_to_close"]

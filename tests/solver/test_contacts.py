@@ -348,7 +348,7 @@ RAIL = {"rail": {"through": [10, 0], "angle": 0}}
         "links": {"5": {"points": ["O", "B"], "length": 60}, "2": {"points": ["B", "Q"], "length": 50, "guides": RAIL}},
         "driver": [{"link": "5", "angle": 30, "omega": 1}, {"link": "2", "relative_to": "5", "angle": 40, "omega": 1}],
     }),
-])  # fmt: skip
+])
 def test_a_wheel_stands_where_it_is_sketched_however_the_direction_of_its_rail_is_known(base, turn, known, scene):
     along = cmath.rect(1, math.radians(turn))
     sketched = {"B": base, "Q": base + 50 * along if turn == 70 else base, "C": base + complex(48, 33) * along}

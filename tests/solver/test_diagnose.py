@@ -79,7 +79,7 @@ def test_a_redundant_link_that_does_not_fit_is_named_with_its_miss() -> None:
     ({"length": math.hypot(20, 10), "at": {"M": [math.sqrt(125), 0]}, "on": "0.h"},
      20 * math.sin(math.atan(0.5) / 2) * math.sqrt(5)),  # also where a third joint lies between them
     ({"length": math.hypot(20, 10.002)}, 0.0008942),
-])  # fmt: skip
+])
 def test_the_miss_of_a_redundant_link_is_that_of_its_ends(link: dict[str, Any], miss: float) -> None:
     scene = scenes.slider_crank(50, 120)
     scene["links"]["3"]["at"] = {"E": [30, 0], "F": [50, 10], "M": [40, 5]}

@@ -132,7 +132,7 @@ def test_a_short_gap_between_two_ranges_is_seen() -> None:
     found = ranges(range_of(structure_of(mechanism_of(SHORT))))
     expected = [LENGTHS[:2], LENGTHS[2:], [-x for x in LENGTHS[:2][::-1]], [-x for x in LENGTHS[2:][::-1]]]
     assert sorted(expected) == [pytest.approx([1000 * r.low, 1000 * r.high], abs=1e-9) for r in
-                                sorted(found, key=lambda r: r.low)]  # fmt: skip
+                                sorted(found, key=lambda r: r.low)]
 
 
 def test_links_that_nearly_lie_in_line_pass_no_change_point() -> None:

@@ -57,7 +57,7 @@ def loaded(scene, seed):
         name: {"at": [rng.uniform(-50, 50), rng.uniform(-50, 50)], "mass": rng.uniform(0.1, 5),
                "inertia": rng.uniform(0, 0.1)}
         for name in links
-    }  # fmt: skip
+    }
     made["loads"] = {
         "A": {"on": rng.choice(links), "at": [10, -5], "force": 300, "angle": 30},
         "B": {"on": rng.choice(links), "at": [0, 20], "force": 200, "follows": rng.choice(links), "angle": -50},
@@ -159,7 +159,7 @@ def residues(scene):
                 act(link, 0j, None, sign * value, external=False)
         most = max(most, float(np.abs(value).max()))
     worst = max(max(abs(complex(f[0])) if np.ndim(f) else abs(f), abs(float(np.ravel(m)[0])) / mechanism.size)
-                for f, m in sums.values())  # fmt: skip
+                for f, m in sums.values())
     turning = max(abs(float(np.ravel(p)[0])) for p in powers)
     return worst, most, abs(float(np.ravel(power)[0])), turning
 

@@ -27,7 +27,7 @@ def _two_groups(seed: int) -> dict[str, object]:
         "links": {"1": {"points": ["A", "B"], "length": crank}, **(rocker if seed % 2 else slotted),
                   "4": {"points": ["D", "E"], "length": 90}, "5": {"points": ["E"], "on": "0.h"}},
         "driver": {"link": "1", "angle": rng.uniform(60, 120), "omega": 10},
-    }  # fmt: skip
+    }
 
 
 @pytest.mark.quick

@@ -74,7 +74,7 @@ LOOPS = {
         lambda q, b, s: mp.mpc(90, -20) + 50 * _ray(b), ("D", "3"),
         lambda m: [m.angle("3")[0], 1000 * m.slide("2/3")[0][0]],
     ),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize("degrees", ["60", "75", "200", "-33.3"])

@@ -32,7 +32,7 @@ def test_joints_stay_closed_and_rates_are_slopes(made):
 
 @pytest.mark.parametrize(("made", "wheel", "other"), [
     (wheel_at_its_rim, "3", None), (planet_by_a_rod, "3", None), (wheel_on_a_rocker, "3", "5"),
-])  # fmt: skip
+])
 def test_where_they_touch_both_have_one_velocity(made, wheel, other):
     scene = made()
     reached = [here for here in solve(scene, sweep=7).data["positions"] if here["status"] == "ok"]

@@ -80,7 +80,7 @@ REDRIVEN = [
     ("TWO_SLOTS", "2/0", ""), ("OLDHAM", "2/1", ""), ("OLDHAM", "3", "0"), ("TRAMMEL", "P/0", ""),
     ("TRIAD", "3", "0"), ("TRIAD", "5", "0"), ("TRIAD", "4", "3"), ("sixbar-guide-40deg", "4/3", ""),
     ("sixbar-420rpm", "4", "1"),
-]  # fmt: skip
+]
 
 
 def sides(scene: Mechanism, key: str) -> tuple[str, str]:

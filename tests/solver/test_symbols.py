@@ -37,7 +37,7 @@ EXACT = {"v_B": 1220, "v_B@3": 1075.78, "v_B@3/B@2": 575.41,
          "an_B@3": 3032.76, "at_B@3": 2509.78, "a_B@3": 3936.58,
          "ak_B@3/B@2": 3244.28, "ar_B@3/B@2": 7725.06, "v_D@3": 472.42, "v_D": 482.722,
          "a_D@3": 1728.71, "a_D": 554.668,
-         "ak_D/D@3": 559.32, "ar_D/D@3": 1217.82, "v_D/D@3": 99.20}  # fmt: skip
+         "ak_D/D@3": 559.32, "ar_D/D@3": 1217.82, "v_D/D@3": 99.20}
 
 
 @pytest.mark.parametrize("symbol", EXACT)
@@ -98,7 +98,7 @@ def test_parts_of_a_coincident_point_are_about_the_pivot_of_that_link(sixbar: Mo
 
 
 IMPOSSIBLE = {"v_Q": "point", "omega_9": "link", "an_E/D": "one link", "an_E": "fixed point", "ak_C/B": "coincident",
-              "v_B@8": "link"}  # fmt: skip
+              "v_B@8": "link"}
 
 
 @pytest.mark.parametrize("symbol", IMPOSSIBLE)
@@ -137,7 +137,7 @@ def test_a_link_seen_from_the_link_it_is_hinged_to_turns_about_the_hinge_and_has
     [
      "F_5/6", "F_5/6@C", "F_5/6+", "F_1@B@3", "F_2", "Fi_6", "G_6", "P_cut", "P_cut+", "M_2", "M_6/1+", "Mi_4", "h_4",
      "arm_G_6"],
-)  # fmt: skip
+)
 def test_names_of_forces_are_written_as_they_are_read(name: str) -> None:
     assert name == str(Symbol.parse(name))
 
@@ -163,7 +163,7 @@ def slot_in_the_frame() -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("source", [*library(), slot_in_the_frame()],
-                         ids=lambda source: source if isinstance(source, str) else "slot")  # fmt: skip
+                         ids=lambda source: source if isinstance(source, str) else "slot")
 def test_coriolis_and_the_rest_make_the_acceleration_between_any_two_links(source: str | dict[str, Any]) -> None:
     motion = solve(mechanism_of(source))
     links = [link for link in (motion.scene.frame, *motion.scene.links) if not link.redundant]
@@ -188,6 +188,6 @@ def test_a_vector_along_an_inclined_guide_has_the_sign_and_size_of_the_rate_of_i
         "links": {"1": {"points": ["A", "B"], "length": 20}, "2": {"points": ["B", "C"], "length": 60},
                   "3": {"points": ["C"], "on": "4.h"}},
         "driver": {"link": "1", "angle": 60, "omega": 10},
-    }))  # fmt: skip
+    }))
     rate = Symbol.parse(f"{kind}_3/4")
     assert value_of(motion, rate) == pytest.approx(value_of(motion, replace(Symbol.parse(f"{kind}_C"), along=True)))

@@ -44,7 +44,7 @@ def test_of_two_dwells_that_differ_little_the_deeper_ends_the_stroke(toward: flo
     found = extremes(driver_range(mechanism_of(swung_through(guide))), Symbol.parse("stroke_6/4"))
     assert (pytest.approx((ROCKER + ROD - travel) / 1e3, rel=1e-12), pytest.approx(math.radians(crank), abs=1e-9)) == (
         found.stroke, found.low_offset,
-    )  # fmt: skip
+    )
 
 
 def test_of_two_equal_dwells_that_at_the_smaller_angle_of_the_crank_is_meant() -> None:

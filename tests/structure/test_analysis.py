@@ -111,7 +111,7 @@ def test_a_driven_coupler_is_a_group_of_class_three() -> None:
 def test_a_link_turned_from_a_later_one_that_a_driver_turns_is_a_driven_link(base: str, order: tuple[int, ...]) -> None:
     drivers = [{"link": "1", "relative_to": base, "angle": 40, "omega": 3, "alpha": -1},
                {"link": "2", "angle": 70, "omega": 2, "alpha": 0.5},
-               {"slide": "3", "travel": 20, "velocity": 15, "acceleration": -7}]  # fmt: skip
+               {"slide": "3", "travel": 20, "velocity": 15, "acceleration": -7}]
     scene: dict[str, Any] = {
         "frame": {"points": {"A": [0, 0]}},
         "links": {
@@ -120,7 +120,7 @@ def test_a_link_turned_from_a_later_one_that_a_driver_turns_is_a_driven_link(bas
             "3": {"points": ["S"], "on": "2.g"},
         },
         "driver": [drivers[i] for i in order],
-    }  # fmt: skip
+    }
     assert {Driven} == {type(element) for element in analyse(mechanism_of(scene)).elements}
     motion, turn = solve(mechanism_of(scene)), 30 if base == "3" else 0
     p, q = 0.1 * rect(1, math.radians(110 + turn)), 0.06 * rect(1, math.radians(70))
@@ -264,7 +264,7 @@ def test_a_driver_that_turns_a_link_from_one_on_which_it_slides_is_refused_by_na
         "links": {"1": crank, "2": {"points": ["B"], "on": "3"}, "3": {"points": ["C"]}},
         "driver": {"link": "2", "relative_to": "3", "angle": 0, "omega": 1},
         "sketch": {"B": [30, 30]},
-    })  # fmt: skip
+    })
     with pytest.raises(Unsolvable, match="other drivers already give how link 2 moves on link 3"):
         analyse(scene)
 
@@ -277,7 +277,7 @@ def test_drivers_that_turn_no_wheel_seen_from_the_frame_are_refused_by_name() ->
         "gears": {"g": {"between": ["2", "3"], "teeth": [20, -60], "carrier": "1"}},
         "driver": [{"link": "2", "relative_to": "1", "angle": 0, "omega": 1},
                    {"link": "3", "relative_to": "2", "angle": 0, "omega": 1}],
-    })  # fmt: skip
+    })
     with pytest.raises(Unsolvable, match="driver 3: slides, wheels and other drivers already give"):
         analyse(scene)
 
@@ -290,7 +290,7 @@ def test_drivers_of_wheels_that_turn_alike_whatever_their_carrier_does_are_refus
                   "4": {"points": ["A", "B"], "length": 60}},
         "gears": gears,
         "driver": [{"link": name, "angle": 0, "omega": 1} for name in "12"],
-    })  # fmt: skip
+    })
     with pytest.raises(Unsolvable, match="driver 2: slides, wheels and other drivers already give how link 2 moves"):
         analyse(scene)
 
@@ -308,7 +308,7 @@ def test_a_link_marked_redundant_that_is_needed_is_named() -> None:
 
 @pytest.mark.parametrize(("scene", "order"), [
     (wheel_at_its_rim, 2), (cylinder_and_wheel, 2), (planet_by_a_rod, 2), (five_bar_by_its_middle, 3),
-])  # fmt: skip
+])
 def test_a_rod_and_the_wheel_that_it_moves_are_a_dyad_about_where_it_rolls(
     scene: Callable[[], dict[str, Any]], order: int
 ) -> None:

@@ -40,7 +40,7 @@ def test_an_extreme_of_a_range_that_ends_is_local_where_the_quantity_goes_beyond
     assert "local maximum" in swept.text
     assert "; maximum" not in swept.text
     ended, turning = (sweep.data["curves"]["omega_2"]["extremes"]
-                      for sweep in (swept, graphkin.sweep("fourbar-150-500-300-400", positions=2)))  # fmt: skip
+                      for sweep in (swept, graphkin.sweep("fourbar-150-500-300-400", positions=2)))
     assert {True} == {extreme["local"] for extreme in ended if extreme["kind"] == "max"}
     assert [] == [extreme for extreme in turning if "local" in extreme]
 

@@ -21,7 +21,7 @@ def chords(scene: str, name: str, way: str):
 @pytest.mark.parametrize(("scene", "name"), [
     ("shaper-scheme-2", "s_6/1"), ("fourbar-150-500-300-400", "omega_3"), ("slotter-75-150", "x_C"),
     ("hydraulic-cylinder", "theta_2"),
-])  # fmt: skip
+])
 def test_lines_parallel_to_the_chords_cut_off_the_mean_rates(scene: str, name: str) -> None:
     one = chords(scene, name, "derivative")
     assert one.means == pytest.approx(one.measured, abs=1e-9 * np.max(np.abs(one.means)))

@@ -51,7 +51,7 @@ LAWS = [
     ("slow sliding", "velocity sliding"), ("slow sliding", "velocity bar"),
     ("slow sliding", "velocity sliding pencil"), ("slow sliding", "velocity bar pencil"),
     ("small scale", "pencil points"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("kind", "law"), LAWS)

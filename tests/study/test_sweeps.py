@@ -259,7 +259,7 @@ def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 def test_a_killed_or_interrupted_command_goes_on(tmp_path: Path, sent: str, uninterrupted: dict[str, str]) -> None:
     name = "fourbar-150-500-300-400"
     call = [sys.executable, "-c", "from graphkin.cli import main; main()", "sweep", name, "-q", "--find", "v_C",
-            "--positions", str(LONG), "-o"]  # fmt: skip
+            "--positions", str(LONG), "-o"]
     first = subprocess.Popen([*call, str(tmp_path / "b")], stderr=subprocess.DEVNULL)
     deadline = time.monotonic() + 60
     while not list(tmp_path.glob("b/.sweep-*/0000001")) and time.monotonic() < deadline:
@@ -281,7 +281,7 @@ def test_designs_whose_driver_follows_from_the_speed_of_a_point_have_its_rate() 
             "3": {"points": ["B"], "on": "0.h"},
         },
         "driver": {"link": "1", "angle": 70, "speed": 200, "of": "A", "sense": "clockwise"},
-    }  # fmt: skip
+    }
     swept = graphkin.sweep(crank, designs={"links.1.length": [40, 50]}, positions=1, find=["v_B"])
     longer = graphkin.read(crank).replace("links.1.length", 50)
     wanted = [abs(graphkin.solve(scene)["v_B"][0]) for scene in (crank, longer)]

@@ -118,7 +118,7 @@ def test_a_transmission_angle_that_changes_by_rounding_alone_is_the_same_in_ever
         },
         "driver": {"link": "1", "angle": 53, "omega": 6.65},
         "sketch": {"P": [-57.5, 84.2]},
-    }  # fmt: skip
+    }
     _, least = study_turn(driver_range(mechanism_of(scene))).transmission
     assert () == least.drivers
     assert 20 == pytest.approx(math.degrees(least.angle), abs=1e-7)
@@ -137,7 +137,7 @@ def test_every_pin_at_a_crossing_of_slots_has_a_transmission_angle_of_its_own() 
         },
         "pins": {"P": {"of": "2", "in": ["1", "0.v"]}, "R": {"of": "4", "in": ["1", "0.w"]}},
         "driver": {"link": "1", "angle": 10, "omega": 2},
-    }  # fmt: skip
+    }
     swept = graphkin.sweep(scene, positions=2)
     (high,) = {bound["high"] for bound in swept.data["ranges"] if bound["reached"]}
     for pin, angle in (("P", 80), ("R", 60)):
@@ -248,7 +248,7 @@ def test_a_slide_that_comes_back_less_than_it_goes_has_no_stroke_and_goes_on() -
         "frame": rail, "links": {"1": wheel, "2": yoke}, "pins": {"P": {"of": "1", "in": "2.s"}},
         "contacts": {"K": {"between": ["1.w", "0.rail"], "rolling": True}},
         "driver": {"link": "1", "angle": 0, "omega": -2}, "drawn": {"C": [0, 30], "P": [45, 30]},
-    }  # fmt: skip
+    }
     (output,) = study_turn(driver_range(mechanism_of(scene))).outputs
     assert output.position.extremes
     assert (None, "slides on") == (output.stroke, output.without)
@@ -581,7 +581,7 @@ def test_a_slider_in_line_with_its_crank_has_no_quick_return_at_all(angle, crank
         "links": {"1": {"points": ["A", "B"], "length": crank}, "2": {"points": ["B", "C"], "length": 90},
                   "3": {"points": ["C"], "on": "0.g"}},
         "driver": {"link": "1", "angle": angle + 50, "omega": 10},
-    })))  # fmt: skip
+    })))
     (one,) = (turn.quick_return(o) for o in turn.outputs if o.quantity.pair == "3/0")
     assert (1.0, 0.0) == one
 
@@ -651,7 +651,7 @@ def test_no_zero_and_no_extreme_is_invented_where_a_slide_is_only_not_followed_f
 
 
 @pytest.mark.parametrize(("name", "key"), [("elliptic-trammel", "s_3/4"), ("scissor-lift", "s_8/1"),
-                                           ("scissor-lift", "theta_2")])  # fmt: skip
+                                           ("scissor-lift", "theta_2")])
 def test_what_is_nought_at_an_end_of_the_motion_is_told_as_0(name: str, key: str) -> None:
     curve = next(t for t in turn_of(name).curves if str(t.quantity) == key)
     assert 0.0 in [e.value for e in curve.extremes if e.kind == "end"]
@@ -680,7 +680,7 @@ def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found(
             "6": {"points": ["D"], "on": "1.h"},
         },
         "driver": {"link": "2", "angle": 130.03, "omega": 10},
-    })))  # fmt: skip
+    })))
     slider = next(t for t in study.curves if str(t.quantity) == "s_6/1")
     places = [math.degrees(e.driver) for e in slider.extremes if e.kind != "end"]
     assert any(abs(place - 19.2707) < 2e-3 for place in places)
@@ -789,7 +789,7 @@ def test_the_rate_of_a_contra_parallelogram_has_its_extremes_in_line() -> None:
         },
         "driver": {"link": "1", "angle": 90, "omega": -5},
         "sketch": {"C": [30, -40]},
-    }  # fmt: skip
+    }
     turn = study_turn(driver_range(mechanism_of(scene)))
     rate, second = (next(t for t in turn.curves if str(t.quantity) == name) for name in ("omega_3", "alpha_3"))
     assert [0.0, math.pi] == pytest.approx(sorted(zero % math.tau for zero in second.zeros), abs=1e-8)
@@ -832,7 +832,7 @@ TOGGLE = {
     },
     "driver": {"link": "1", "angle": 35, "omega": -12},
     "sketch": {"C": [11, 1], "E": [11, -7]},
-}  # fmt: skip
+}
 
 
 def turned_toggle(degrees: float, omega: float) -> dict[str, Any]:
@@ -962,7 +962,7 @@ def test_of_strokes_that_repeat_in_a_turn_that_after_the_crank_s_zero_counts_als
         "pins": {"B": {"of": "1", "in": "2.s"}},
         "driver": {"link": "1", "angle": 10, "omega": 10 * sense},
         "sketch": {"C": [0, 20], "E": [75, 0]}, "find": ["K_5/0"],
-    })  # fmt: skip
+    })
     found = extremes(reach := driver_range(scene), Symbol.parse("s_5/0"))
     computed = np.exp(1j * reach.value(np.array([found.low_offset, found.high_offset])))
     ((low, high),) = draft(scene).limits.values()

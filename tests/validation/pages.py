@@ -21,7 +21,7 @@ __all__ = ["PAGES", "PROBLEMS", "Page", "Value", "answer"]
 
 PROBLEMS = Path(__file__).parent / "problems"
 UNITS = {"1": 1.0, "mm": 1e-3, "mm/s": 1e-3, "mm/s2": 1e-3, "m/s": 1.0, "m/s2": 1.0, "deg": math.pi / 180, "rad/s": 1.0,
-         "rad/s2": 1.0}  # fmt: skip
+         "rad/s2": 1.0}
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def read_page(path: Path) -> Page:
         row = dict(zip(lines[0], line, strict=True))
         at = float(row["at"]) if row.get("at") else None
         values.append(Value(scene, row["quantity"], row["asked of graphkin"].strip("`"), at, row["unit"],
-                            row["printed"], row["exact"], row["verdict"]))  # fmt: skip
+                            row["printed"], row["exact"], row["verdict"]))
     return Page(path, title, source, scene, tuple(values))
 
 

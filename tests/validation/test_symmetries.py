@@ -26,7 +26,7 @@ TOGGLE: Scene = {
     },
     "driver": {"link": "1", "angle": 35, "omega": -12, "alpha": 5},
     "sketch": {"C": [11, 1], "E": [11, -7]},
-}  # fmt: skip
+}
 """It passes its straight position twice a turn."""
 
 SCENES = {
@@ -35,7 +35,7 @@ SCENES = {
         (1, ("RRR", "RRP"), "crank"), (2, ("RPR", "pin"), "crank"), (4, ("PRP", "slotted"), "slider"),
         (6, ("RPP", "RRR"), "cylinder"),
     )},
-}  # fmt: skip
+}
 
 
 def moved(scene: Scene, degrees: float, mirrored: bool) -> Scene:
@@ -80,13 +80,13 @@ def strokes(scene: Scene) -> dict[str, dict[str, float | None]]:
     outputs = graphkin.sweep(scene, positions=2).data["outputs"]
     told = ("stroke", "swing", "K", "theta")
     return {output.get("slide") or output["link"]: {key: output[key] for key in told if key in output}
-            for output in outputs}  # fmt: skip
+            for output in outputs}
 
 
 def like(told: dict[str, Any], side: float = 1.0) -> dict[str, Any]:
     """The numbers of a result as expected ones, with a sign."""
     return {key: like(value, side) if isinstance(value, dict) else value if value is None else
-            pytest.approx(side * value, rel=1e-8, abs=1e-9) for key, value in told.items()}  # fmt: skip
+            pytest.approx(side * value, rel=1e-8, abs=1e-9) for key, value in told.items()}
 
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
@@ -119,7 +119,7 @@ def test_the_report_of_a_mirrored_mechanism_has_its_sides_and_senses_exchanged(n
 @pytest.mark.parametrize(("degrees", "mirrored"), [(100, False), (13, False), (-37, True)])
 def test_a_zero_by_cancelling_terms_is_judged_in_every_frame_as_one_that_comes_out_exactly(
     kinds, drive, degrees, mirrored,
-):  # fmt: skip
+):
     scene = random_scene(51, kinds, drive)
     here, other = (graphkin.check(one).report for one in (scene, moved(scene, degrees, mirrored)))
     verdicts = {str(row.symbol): row.ok for row in here.rows}
@@ -128,7 +128,7 @@ def test_a_zero_by_cancelling_terms_is_judged_in_every_frame_as_one_that_comes_o
 
 
 PAIRS = (("counter-clockwise", "clockwise"), (" left", " right"), (" upper", " lower"),
-         ("逆时针", "顺时针"), ("左", "右"), ("上方", "下方"))  # fmt: skip
+         ("逆时针", "顺时针"), ("左", "右"), ("上方", "下方"))
 
 
 def exchanged(text: str) -> str:

@@ -257,13 +257,13 @@ def audit(
 
     judged = tuple((who, of(who)) for who in people)
     opened = [(who, own) for who, own in judged if any(
-        j.verdict == "wrong" and j.printed.symbol.kind in ("theta", "s") for j in own)]  # fmt: skip
+        j.verdict == "wrong" and j.printed.symbol.kind in ("theta", "s") for j in own)]
     told = {id(who): with_gaps(case(who.at, who.variant), own) for who, own in opened[:MOST_LOOPS]}
     judged = tuple((who, told.get(id(who), own)) for who, own in judged)
     return Audited(given, judged, language or given.question.sheet.language, unused, scheme, scans)
 
 
-# -- what values are held against --------------------------------------------------------------------------------------
+# what values are held against
 
 
 def _problems(
@@ -305,7 +305,7 @@ def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhe
     @cache
     def values(symbol: Symbol) -> tuple[tuple[str, Value], ...]:
         others = {id(scene): (name, scene) for name, scene in reversed([*problems.items()])  # "02" is "2" too
-                  if name and scene is not problems[own]}  # fmt: skip
+                  if name and scene is not problems[own]}
         return tuple((name, exact_values(solver.solve(scene), [symbol])[symbol]) for name, scene in others.values())
 
     return values
@@ -334,7 +334,7 @@ def judged_table(
     return judge_table(
         motion, [(who.values, who.by) for who in table], {s: float(value.real) for s, value in values.items()}, names,
         lambda row: case(table[row].at),
-    )  # fmt: skip
+    )
 
 
 def evidence_at(

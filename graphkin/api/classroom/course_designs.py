@@ -88,7 +88,7 @@ class CourseDesigns(OfScene, Result):
              "values": {str(s): values.read.get(s) for s in self.asked},
              "exact": {str(s): values.exact.get(s) for s in self.asked}}
             for student, values in self.rows
-        ]  # fmt: skip
+        ]
         return {"ok": self.ok, "students": students}
 
     @property

@@ -123,7 +123,7 @@ class Handout(OfScene, Result):
         views, start = views_of(
             sheet.structure, self.values, sheet.asked, language, self.lesson.convention, sheet.scales, self.count,
             self._half(0),
-        )  # fmt: skip
+        )
         moving = motion_data(sheet, self.lesson.letters, self.values)
         return handout_page(self.lesson, views, start, self._half(1), moving, worked)
 
@@ -194,7 +194,7 @@ def handout(
 def papers_of(
     scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None,
     exports: Sequence[str] = (),
-) -> Callable[[Variant], Mapping[str, bytes]]:  # fmt: skip
+) -> Callable[[Variant], Mapping[str, bytes]]:
     """The writer of the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``, which can
     be sent to another process.
 
@@ -206,7 +206,7 @@ def papers_of(
     given = as_scene(scene)
     wishes = given.question.sheet
     return partial(_papers, given.name, known_platforms(exports), tuple(dict.fromkeys(formats)),
-                   language or wishes.language, convention or wishes.convention)  # fmt: skip
+                   language or wishes.language, convention or wishes.convention)
 
 
 def _papers(

@@ -90,7 +90,7 @@ class ProblemSet(OfScene, Result):
                 **({"remarks": [*map(str, variant.remarks)]} if variant.remarks else {}),
             }
             for variant in self.variants if not variant.why
-        ]  # fmt: skip
+        ]
         failures = [{"name": f.name, "why": str(f.why)} for f in self.failures]
         return {"ok": self.ok, "variants": variants, "failures": failures, "unused": list(self.unused)}
 

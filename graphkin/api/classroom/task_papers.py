@@ -61,7 +61,7 @@ def _papers(
     title: Said, given: Sequence[Said], start: Sequence[Drawing], whole: Mapping[Said, Drawing], sheet: Sheet,
     results: Sequence[Result], notes: Sequence[Said], language: str, paper: Paper, formats: Sequence[str],
     prefix: str = "",
-) -> Mapping[str, bytes]:  # fmt: skip
+) -> Mapping[str, bytes]:
     """Problem sheet, worked solution and key of a task, as files.
 
     Parameters
@@ -102,7 +102,7 @@ def _papers(
           for i, (caption, figure) in enumerate(whole.items(), 1)),
         results_in("results", ("quantity", "measured", "exact", "unit"), results),
         *(Paragraph(finished(sentence)) for sentence in notes),
-    )  # fmt: skip
+    )
     key = document(
         "answer key",
         table_of(language, results, ("quantity", "value", "accept", "unit")),
@@ -113,7 +113,7 @@ def _papers(
 
 def _result(
     name: Words, unit: str, read: str, exact: str, value: float, deviation: float, least: float = 0.0
-) -> Result:  # fmt: skip
+) -> Result:
     """A result with its tolerance, the accepted number of standard deviations of a pencil drawing."""
     _, within = accepted(value, COVERAGE * deviation, least)
     return {"quantity": name, "unit": unit, "measured": read, "value": exact, "exact": exact, "accept": within}
@@ -142,7 +142,7 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
         language=language,
         paper=Paper(*given.sheet.size),
         formats=formats,
-    )  # fmt: skip
+    )
 
 
 def write_design_papers(
@@ -212,4 +212,4 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         paper=Paper(*scene.question.sheet.size),
         formats=formats,
         prefix=prefix,
-    )  # fmt: skip
+    )

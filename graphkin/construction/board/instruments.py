@@ -87,7 +87,7 @@ class Instrument:
     def crossing(
         self, what: object, p: complex, d: complex, q: complex, e: complex, status: str = "dead point",
         wanted: str = "move the driver off this position",
-    ) -> complex:  # fmt: skip
+    ) -> complex:
         """Prick the place (mm) where two drawn lines meet, each through a point along a vector.
 
         Parameters

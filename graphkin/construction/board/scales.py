@@ -66,7 +66,7 @@ class Scales:
         """The value of one mm of paper: of lengths in mm, of rates in a unit of so many metres by second and second
         squared, of forces in one of so many newtons."""
         scales = {"length": self.length * 1e3, "velocity": self.velocity / metres,
-                  "acceleration": self.acceleration / metres, "force": self.force / newtons}  # fmt: skip
+                  "acceleration": self.acceleration / metres, "force": self.force / newtons}
         # without the noise of units
         return {name: float(f"{scale:.12g}") for name, scale in scales.items() if name != "force" or scale}
 

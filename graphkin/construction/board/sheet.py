@@ -57,7 +57,7 @@ MAGNIFIED = 2.0  # times as much as was left open: from there on it is said
 Remarkable = Literal[
     "sharp crossing", "off the sheet", "zero vector", "short arm", "magnified", "parallel legs", "at contact",
     "at pitch curve",
-]  # fmt: skip
+]
 
 
 @dataclass(frozen=True)
@@ -263,7 +263,7 @@ class Sheet:
             self, scales=replace(self.scales, length=self.scales.length / times), steps=(),
             poses={name: pose.scaled(times) for name, pose in self.poses.items()},
             points={ref: z * times for ref, z in self.points.items() if ref.point not in self.serving},
-        )  # fmt: skip
+        )
 
     def at(self, scales: Scales) -> Sheet:
         """The construction at other scales: every length on paper multiplied by a factor.  Forces are drawn anew.
@@ -319,7 +319,7 @@ class Sheet:
                 phrases.append(Phrase(
                     "own scale of forces", links=joined("one and other", parts), scale=scale,
                     forces=listed([symbol for symbol, per in read_at if per == per_mm]),
-                ))  # fmt: skip
+                ))
         return tuple(phrases)
 
     @cached_property
@@ -431,7 +431,7 @@ def either_way(symbol: Symbol) -> Symbol:
     return replace(symbol, of=symbol.to, to=symbol.of) if str(symbol.to) < str(symbol.of) else symbol
 
 
-# -- vectors that are nothing but rounding -----------------------------------------------------------------------------
+# vectors that are nothing but rounding
 #
 # Exact hands lose some 1e-16 of the largest vector, and more where lines cross at a small angle.  A normal component is
 # v squared over a length, and so is as certain as the velocity that it comes from, however short.
@@ -505,7 +505,7 @@ def _residues(sheet: Sheet) -> set[Symbol]:
     return zero
 
 
-# -- the board on which it grows ---------------------------------------------------------------------------------------
+# the board on which it grows
 
 
 @dataclass
@@ -556,7 +556,7 @@ class Board:
     def notice(
         self, diagram: DiagramName, key: Remarkable, size: float = 0.0, mm: float = 0.0, finds: Symbol | None = None,
         **of: str | Symbol | Phrase,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """Note a possible remark, for this scale or another."""
         self.noticed.append(Remark(diagram, key, of, size, mm, finds))
 

@@ -27,7 +27,7 @@ PARTS: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 
-# -- terms of vector equations -----------------------------------------------------------------------------------------
+# terms of vector equations
 
 
 @dataclass(frozen=True)
@@ -147,13 +147,13 @@ Part = Literal["", "t", "n"]
 """All of a force, or its part that moments give (t) or its part along the bar or guide (n)."""
 
 
-# -- on paper ----------------------------------------------------------------------------------------------------------
+# on paper
 
 Value = TypeVar("Value")
 LENGTHS = {
     "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "radii", "apart",
     "poses", "less", "span", "strokes", "terms", "divisions", "line", "base", "point", "contact",
-}  # fmt: skip
+}
 """Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
 
 
@@ -216,7 +216,7 @@ class Term(OnPaper):
     span: complex | None = None
 
 
-# -- steps -------------------------------------------------------------------------------------------------------------
+# steps
 
 DiagramName = Diagram | Literal["force"]
 Verb = Literal["mark", "lay off", "line", "cross", "image", "read", "join", "carry over", "trial", "divide"]
@@ -232,7 +232,7 @@ TaskReason = Literal[
     "design halve", "design inverted",  # carry over
     "design trial",  # trial
     "cam step diagram",  # divide
-]  # fmt: skip
+]
 """Reasons of steps of a task with a construction of its own."""
 Reason = TaskReason | Role | Literal[
     "frame", "points", "whole link", "pitch point", "letter",  # mark
@@ -253,7 +253,7 @@ Reason = TaskReason | Role | Literal[
     "about driver", "system", "couple", "no couple", "balance", "all moments",  # read
     "closed", "inside",  # join
     "lever",  # carry over
-]  # fmt: skip
+]
 FINDS_A_POINT: Collection[Reason] = ("arcs", "arc on path", "paths")
 """Reasons of steps by which a point of the mechanism is found, before it is marked on its link."""
 NO_SYMBOL, NO_POINT, NO_PHRASE = Symbol(""), PointRef(""), Phrase("")
@@ -507,7 +507,7 @@ class RateStep(Step):
                 own = self.link == of
                 told = increase(self.value, self.other if own else -self.other)
                 return {"known": known, "sign": "+" if own else "−", "told": told,
-                        "between": self.link + known if own else known + self.link}  # fmt: skip
+                        "between": self.link + known if own else known + self.link}
             case "given on plan":
                 signed = "−" * (self.value < 0.0) + printed(on_paper(self.mm))
                 return {"told": printed(amount(self.value, 4)), "signed": signed}
@@ -527,7 +527,7 @@ def phrase_of(cause: Cause) -> Phrase:
     return cause if isinstance(cause, Phrase) else cause.phrase
 
 
-# -- strokes -----------------------------------------------------------------------------------------------------------
+# strokes
 
 LineKind = Literal["given", "construction", "limit", "mechanism"]
 """Lines that a task gives, help lines, bars in other positions, and the mechanism that is found."""
@@ -627,7 +627,7 @@ class Image(OnPaper):
 Stroke = Vector | Curve | Ray | CompassArc | Bar | Angle | Mark | Image
 
 
-# -- trials ------------------------------------------------------------------------------------------------------------
+# trials
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -783,7 +783,7 @@ class Superposed(Step):
         return told[name]
 
 
-# -- in words ----------------------------------------------------------------------------------------------------------
+# in words
 
 SENTENCES: Mapping[Reason, str] = {
     "whole link": "transfer", "letter": "name", "angle": "lay off angle", "travel": "lay off travel",
@@ -799,7 +799,7 @@ SENTENCES: Mapping[Reason, str] = {
     "inside": "force step inside", "couple": "force reason couple", "no couple": "force no couple",
     "balance": "force reason balance", "lever": "lever reason", "on lever": "lever step forces",
     "all moments": "lever sum",
-}  # fmt: skip
+}
 """The key in the table of words of steps that are told in one way, or in one for each kind; of others the reason is the
 key."""
 

@@ -7,4 +7,4 @@ from graphkin.construction.forces.steps import ForceGroup, ForceState, Lever
 
 __all__ = [
     "ForceGroup", "ForceState", "Lever", "acting_loads", "force_readings", "force_scales", "with_forces",
-]  # fmt: skip
+]

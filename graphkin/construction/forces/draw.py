@@ -97,9 +97,9 @@ def _numbered(sheet: Sheet) -> Sheet:
         tuple(done if drawn == before else in_order(drawn)
               for drawn, before, done in zip(state.groups, bare, first, strict=True))
         for state in sheet.forces
-    ]  # fmt: skip
+    ]
     states = (replace(state, groups=drawn, levers=tuple(map(in_order, state.levers)))
-              for state, drawn in zip(sheet.forces, groups, strict=True))  # fmt: skip
+              for state, drawn in zip(sheet.forces, groups, strict=True))
     return replace(sheet, inertias=inertias, springs=springs, forces=tuple(states))
 
 
@@ -155,7 +155,7 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
             moments[balance.symbol] = balance.moment
     vectors = {symbol: force for symbol, (force, _) in forces.items()}
     per_mm = {symbol: next((drawn_at[name] for name in drawn_at if name in links), common)
-              for symbol, (_, links) in forces.items()}  # fmt: skip
+              for symbol, (_, links) in forces.items()}
     for k, group in enumerate(groups):  # what was read of forces of pairs, by their names
         named = {symbol: vectors.get(symbol, vectors.get(symbol.opposite)) for symbol in group.read}
         read = {symbol: abs(force / group.per_mm) for symbol, force in named.items() if force is not None}
@@ -235,7 +235,7 @@ def _levers(sheet: Sheet, state: ForceState, hand: Instrument) -> Iterator[Lever
             continue
         value = -added_up(row.moment for row in rows) / unknown.moment
         steps = (ForceStep("carry over", "lever", "force"), ForceStep("lay off", "on lever", "force"),
-                 ForceStep("read", "all moments", "force", symbol=balance.symbol, finds=(balance.symbol,)))  # fmt: skip
+                 ForceStep("read", "all moments", "force", symbol=balance.symbol, finds=(balance.symbol,)))
         by_polygons = state.moments.get(balance.symbol) or abs(state.vectors.get(balance.symbol, 0j))
         yield Lever(per_mm, drawn is not sheet, ends, rows, unknown, value, by_polygons, steps)
 
@@ -262,7 +262,7 @@ def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> M
     return MomentTerm(changed(acting, force=square * size, at=tip), arm, size * arm, pair=(tail, tip))
 
 
-# -- what is read off --------------------------------------------------------------------------------------------------
+# what is read off
 
 
 def force_readings(sheet: Sheet, hand: Instrument = EXACT) -> tuple[Reading, ...]:

@@ -101,7 +101,7 @@ class CutFree:
     hung: list[tuple[str, list[str], list[ForceVector]]] = field(default_factory=list)
     group: ForceGroup = NO_GROUP
 
-    # -- the group under work ------------------------------------------------------------------------------------------
+    # the group under work
 
     def begin(self, links: tuple[str, ...], kind: str, way: Way, members: Sequence[str]) -> None:
         """Cut a group free, with the known forces and couples on it."""
@@ -158,11 +158,11 @@ class CutFree:
         inside = [
             ForceStep("join", "inside", "force", tuple(v for v in chain if v.symbol in finds), links=links, finds=finds)
             for links, chain in self.group.inner.items() if (finds := self.read_off(chain))
-        ]  # fmt: skip
+        ]
         steps = (step for step in self.group.steps if step.reason not in COUPLES)
         return changed(self.group, steps=(*steps, *inside, *couples))
 
-    # -- what acts -----------------------------------------------------------------------------------------------------
+    # what acts
 
     def push(self, *acting: ForceVector) -> None:
         """Forces and couples act on links, as known ones; the frame bears what comes."""
@@ -255,7 +255,7 @@ class CutFree:
         for acting in (force, couple):
             self.hand_on(acting.on(slide.a), inside)
 
-    # -- moments -------------------------------------------------------------------------------------------------------
+    # moments
 
     def term(self, acting: ForceVector, about: complex) -> MomentTerm:
         """The moment of a force about a place, its arm measured on the mechanism; a couple is its own."""
@@ -268,7 +268,7 @@ class CutFree:
     def moments(
         self, reason: Reason, links: Sequence[str], about: complex, letter: str, unknown: ForceVector,
         more: Iterable[ForceVector] = (),
-    ) -> MomentStep:  # fmt: skip
+    ) -> MomentStep:
         """The size of a force of known line, or of a couple, by the moments of all actions on some links.
 
         Parameters
@@ -292,7 +292,7 @@ class CutFree:
         return MomentStep(
             "read", reason, "force", symbol=sought.symbol, links=tuple(links), finds=(sought.symbol,),
             part=unknown.part, about=letter, terms=terms, unknown=sought, value=value,
-        )  # fmt: skip
+        )
 
     def shift(self, force: ForceVector, couple: float) -> float:
         """Shift the line of action of a pair's force by its couple (N m); the shift (m)."""
@@ -302,7 +302,7 @@ class CutFree:
         self.group = changed(self.group, lines={**self.group.lines, force.symbol: at})
         return shift
 
-    # -- polygons ------------------------------------------------------------------------------------------------------
+    # polygons
 
     def lay(self, chain: Chain, *forces: ForceVector) -> None:
         """Lay off forces head to tail."""
@@ -351,7 +351,7 @@ def _along(slide: Pair) -> Direction:
 def _slide_found(
     cut: CutFree, links: Sequence[str], slide: Pair, force: ForceVector, about: complex, letter: str,
     acting: Iterable[ForceVector], inside: Collection[str],
-) -> ForceVector:  # fmt: skip
+) -> ForceVector:
     """The couple of a sliding pair on links, from the moments about a place, and where it puts the line of action of
     the pair's force; ``about``, ``letter`` and ``acting``, with the pair's own, as in `CutFree.moments`, the links
     ``inside`` do not come later."""
@@ -364,7 +364,7 @@ def _slide_found(
     return step.found
 
 
-# -- a dyad ------------------------------------------------------------------------------------------------------------
+# a dyad
 
 
 def of_dyad(cut: CutFree, dyad: Dyad) -> ForceGroup:
@@ -419,7 +419,7 @@ def _outer_parts(
     slide, outer = dyad.inner, dyad.outer_second
     if slide.turns:
         return (_by_inner_pin(cut, dyad.first.links, dyad.outer_first, at_first, slide),
-                _by_inner_pin(cut, dyad.second.links, outer, at_second, slide))  # fmt: skip
+                _by_inner_pin(cut, dyad.second.links, outer, at_second, slide))
     # body one slides on body two: what pushes it along the guide only its pin can hold
     along = cut.drawn.along(slide)
     laid: Chain = []
@@ -485,16 +485,16 @@ def _inner_force(
     about, letter = outer.at, dyad.outer_first.point
     return on_first, [
         _slide_found(cut, links, pair, on_first, about, letter, (on_first, outer), dyad.members)
-    ]  # fmt: skip
+    ]
 
 
-# -- where drivers act -------------------------------------------------------------------------------------------------
+# where drivers act
 
 
 def _close_driven(
     cut: CutFree, chain: Chain, pair: Pair, on: ForceVector, push: ForceVector,
     more: Iterable[ForceVector], inside: Collection[str],
-) -> list[ForceVector]:  # fmt: skip
+) -> list[ForceVector]:
     """Close the polygon of a link at a driven pair: the force of the pair on it, then the moment or the force that
     drives it there, then the couple of a sliding pair.
 
@@ -572,7 +572,7 @@ def at_driver(cut: CutFree, element: Driven) -> ForceGroup:
     return cut.finished((link,))
 
 
-# -- a larger group ----------------------------------------------------------------------------------------------------
+# a larger group
 
 
 Unknown = tuple[ForceVector, str, Pair | None]

@@ -50,7 +50,7 @@ class DrawnPosition:
         """The links and pairs, those that stand for what touches among them."""
         return self.sheet.structure
 
-    # -- forces by name ------------------------------------------------------------------------------------------------
+    # forces by name
 
     @cached_property
     def hosts(self) -> Mapping[str, Mapping[str, str]]:
@@ -108,7 +108,7 @@ class DrawnPosition:
         """The force (couple) of the guiding link on the sliding one."""
         return self.between(slide.b, slide.body, slide.pin, kind)
 
-    # -- places, and motion off the polygons ---------------------------------------------------------------------------
+    # places, and motion off the polygons
 
     @cached_property
     def mm(self) -> float:
@@ -237,7 +237,7 @@ def _balanced_groups(structure: Structure) -> tuple[Element, ...]:
         return (replace(whole, drivers=(driver,)),)
 
 
-# -- what acts from outside --------------------------------------------------------------------------------------------
+# what acts from outside
 
 STILL = 1e-11
 """Of the greatest speed: what slides more slowly rests."""
@@ -281,13 +281,13 @@ def inertia_read(drawn: DrawnPosition, mass: LinkMass, hand: Instrument) -> Iner
     return Inertia(
         "read", "inertia", "force", link=mass.link, finds=(Symbol("Fi", link=mass.link),), mass=mass, centre=centre,
         push=push, force=force, moment=moment, shifted=shifted, h=h,
-    )  # fmt: skip
+    )
 
 
 def from_outside(
     drawn: DrawnPosition, growing: Sheet, inertias: Mapping[str, Inertia], springs: Iterable[ForceStep],
     with_edges: bool,
-) -> tuple[ForceVector, ...]:  # fmt: skip
+) -> tuple[ForceVector, ...]:
     """All known forces, then couples, those of no size among them.
 
     Parameters
@@ -331,7 +331,7 @@ def spring_read(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> For
     force = spring.pull(length) * unit(end - start)
     symbol, (link, other) = Symbol("P", name=spring.name), spring.links
     acting = (ForceVector(symbol, link=link, force=force, at=start),
-              ForceVector(symbol, link=other, force=-force, at=end, turned=True))  # fmt: skip
+              ForceVector(symbol, link=other, force=-force, at=end, turned=True))
     return ForceStep("read", "spring", "force", link=link, acting=acting, length=length)
 
 

@@ -89,7 +89,7 @@ class ForceVector(Vector):
         """Its opposite, on the other link."""
         turned = self.turned if self.symbol.other else not self.turned
         return changed(self, symbol=self.symbol.opposite, link=self.off, off=self.link, force=-self.force,
-                       moment=-self.moment, turned=turned)  # fmt: skip
+                       moment=-self.moment, turned=turned)
 
     def on(self, link: str) -> ForceVector:
         """The vector as it acts on one of its two links."""

@@ -133,7 +133,7 @@ def _roll(plot: Polygons, order: Order, element: Driven) -> float:
     value, mm, steps = rolled(
         plot.structure, plot.trains, order, coordinate, known, lambda key: _travel_rate(plot, order, key), turns,
         plot.board.instrument,
-    )  # fmt: skip
+    )
     for step in steps:
         plot.do(step)
     plot.given[order, driver.key] = value
@@ -156,7 +156,7 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
     return dot(slip, along) * plot.per[order]
 
 
-# -- larger groups -----------------------------------------------------------------------------------------------------
+# larger groups
 
 
 def _draw_group(plot: Polygons, order: Order, group: LargerGroup) -> None:
@@ -221,7 +221,7 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
                 draw_equation(plot, order, group, VectorChain.closing(edge))
 
 
-# -- moves -------------------------------------------------------------------------------------------------------------
+# moves
 
 
 def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: VectorChain) -> None:
@@ -268,10 +268,10 @@ def _mark_special(plot: Polygons, move: VectorChain) -> None:
     driven = any(not e.unknown and (e.slide or e.joint) for leg in legs for e in leg)
     strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(name), at)
     plot.do(PlaceStep("cross", "special point", strokes=strokes, point=name, points=joints, link=link,
-                 base=move.base, kind="driven" if driven else ""))  # fmt: skip
+                 base=move.base, kind="driven" if driven else ""))
 
 
-# -- vector graphs -----------------------------------------------------------------------------------------------------
+# vector graphs
 
 
 def _free_letters(plot: Polygons, group: LargerGroup) -> Sequence[str]:
@@ -309,7 +309,7 @@ def _graph_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> 
         plot.links, plot.places, plot.ground, plot.tiny, [name for name in group.members if name not in gone],
         past(pairs, gone), joints, same_turn(plot, group), names, driven, isinstance(group, LargerGroup), touching,
         rolling, [(held, n) for held, rest in contours for n in rest.links], wide,
-    )  # fmt: skip
+    )
 
 
 def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, tuple[str, str]]]:
@@ -343,7 +343,7 @@ def _direction(plot: Polygons, edge: RelativeMotion, places: Mapping[str, comple
     return 1j * unit(places[edge.end.point] - places[edge.start.point])
 
 
-# -- contours of known shape -------------------------------------------------------------------------------------------
+# contours of known shape
 
 
 def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple[list[GroupPlan], FarPoint | None]:
@@ -411,7 +411,7 @@ def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
                 spread(plot, order, name, group)
 
 
-# -- trial polygons ----------------------------------------------------------------------------------------------------
+# trial polygons
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -568,7 +568,7 @@ class TrialPolygons:
                        for e, across in plan.open_ends),
             between=tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e in edges),
             less=tuple(tuple(self._taken_off(trial, *end)) for end in plan.open_ends),
-        ))  # fmt: skip
+        ))
         return true
 
     def _taken_off(self, trial: Polygons, edge: RelativeMotion, across: bool) -> Iterator[tuple[Term, float]]:

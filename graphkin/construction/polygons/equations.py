@@ -46,7 +46,7 @@ from graphkin.words.written import MOST
 Side = list[tuple[RelativeMotion, list[Term]]]
 
 
-# -- links that turn alike ---------------------------------------------------------------------------------------------
+# links that turn alike
 
 
 def same_turn(plot: Polygons, group: Dyad | LargerGroup) -> dict[str, str]:
@@ -114,7 +114,7 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
                     queue.append(new)
 
 
-# -- equations drawn ---------------------------------------------------------------------------------------------------
+# equations drawn
 
 
 def _side_of(plot: Polygons, order: Order, path: Sequence[RelativeMotion]) -> Side:
@@ -240,7 +240,7 @@ def _carry(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, equ
         if part.span is not None:
             bar = Bar(at, at + part.span, "")
             plot.do(VectorStep("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol,
-                               size=part.size, mm=abs(part.span), direction=part.direction))  # fmt: skip
+                               size=part.size, mm=abs(part.span), direction=part.direction))
             at += part.span
     return at
 
@@ -248,7 +248,7 @@ def _carry(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, equ
 def _lines_meet(
     plot: Polygons, order: Order, symbol: Symbol, tail: complex, lines: Sequence[tuple[complex, Term]],
     equation: int | None,
-) -> complex:  # fmt: skip
+) -> complex:
     """Draw lines along two vectors of unknown size, each through a point; the vector ``symbol`` from ``tail`` ends at
     their crossing."""
     (p, left), (q, right) = ((at, plot.own_values.line(part.symbol, part.along)) for at, part in lines)
@@ -287,7 +287,7 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
         begun = [(plot.end(order, side[0][0].start), _parts(side), turning), (end, [], free)]
     number = _write(plot, order, group, *written)
     lines = [(_carry(plot, order, (part for part in parts if part.span), at, number), unknown)
-             for at, parts, unknown in begun]  # fmt: skip
+             for at, parts, unknown in begun]
     tail = 0j if equation.base else lines[0][0]
     at = _lines_meet(plot, order, symbol, tail, lines, number)
     vector = Vector(symbol, tail, at, aid=True, trial=plot.trial)
@@ -307,7 +307,7 @@ def _lay_off(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, e
         at = plot.board.instrument.laid_off(tail, part.span)
         plot.board.notice(order, "zero vector", symbol=part.symbol, mm=mm)
         step = VectorStep("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=mm,
-                          direction=part.direction)  # fmt: skip
+                          direction=part.direction)
         plot.record(Vector(part.symbol, tail, at, part.role), step)
     return at
 
@@ -351,12 +351,12 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Vector, gr
     length = abs(arm) * plot.scales.length
     plot.rates[order][edge.link] = Rate(edge.link, value if believed is None else believed, source, read, length)
     plot.do(RateStep("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=bar, value=value, mm=read,
-                     held=plot.held))  # fmt: skip
+                     held=plot.held))
     assert not isinstance(group, Driven)
     spread(plot, order, edge.link, group)
 
 
-# -- terms -------------------------------------------------------------------------------------------------------------
+# terms
 
 
 def parts_of(plot: Polygons, order: Order, edge: RelativeMotion) -> list[Term]:
@@ -395,7 +395,7 @@ def symbol_of(plot: Polygons, kind: str, edge: RelativeMotion) -> Symbol:
 def _term(
     plot: Polygons, edge: RelativeMotion, kind: str, along: complex, mm: float | None, written: Direction,
     size: Size | None = None,
-) -> Term:  # fmt: skip
+) -> Term:
     """A term of an edge.
 
     Parameters
@@ -410,13 +410,13 @@ def _term(
     span = None if mm is None else along * mm
     pair = "" if edge.slide is None else edge.slide.key
     return Term(symbol_of(plot, kind, edge), mm is not None, True, size, written, role=role, link=edge.link, pair=pair,
-                along=along, span=span)  # fmt: skip
+                along=along, span=span)
 
 
 def _by_rate(
     plot: Polygons, links: tuple[str, ...], factor: tuple[str, str] | Symbol, rate: Literal["omega", "alpha"] = "omega",
     square: bool = False, twice: bool = False,
-) -> Size:  # fmt: skip
+) -> Size:
     """The size that a rate gives; with a link held still a single link's rate is relative to it."""
     links = (*links, plot.held) if plot.held and len(links) == 1 else links
     return Size("rate", links, factor, rate, square, twice)

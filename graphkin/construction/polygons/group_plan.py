@@ -71,7 +71,7 @@ class _Search:
     moves: list[VectorChain] = field(default_factory=list)
     parallel: list[tuple[str, str, str]] = field(default_factory=list)
 
-    # -- what is known -------------------------------------------------------------------------------------------------
+    # what is known
 
     def seen(self, edge: RelativeMotion) -> RelativeMotion:
         """An edge with its present unknowns."""
@@ -102,7 +102,7 @@ class _Search:
                     self.nodes.update(mine)
                     grown = True
 
-    # -- ways ----------------------------------------------------------------------------------------------------------
+    # ways
 
     def ways(self, start: PointRef, most: int, stop: Callable[[PointRef], bool]) -> Iterator[Path]:
         """Paths from a known point through unknown ones to their ends, with at most ``most`` unknowns."""
@@ -112,7 +112,7 @@ class _Search:
         """Paths from every known point to some ends, with at most ``most`` unknowns."""
         return (path for start in self.graph.in_order(self.nodes) for path in self.ways(start, most, ends.__contains__))
 
-    # -- moves, each tried in turn -------------------------------------------------------------------------------------
+    # moves, each tried in turn
 
     def close(self) -> bool:
         """A rate that two known points of a link give."""
@@ -122,14 +122,14 @@ class _Search:
             pairs = [
                 e for n in self.of(link) if n in self.nodes for e in self.graph.edges[n]
                 if e.link == link and e.end in self.nodes
-            ]  # fmt: skip
+            ]
             if pairs:
                 # from what was known before to what was found: from the frame where it can be
                 places = self.graph.places
                 best = max(pairs, key=lambda e: (
                     -self.graph.strange((e,)), e.start in self.graph.fixed, e.start in self.graph.known,
                     abs(places[e.end.point] - places[e.start.point]), e.forward,
-                ))  # fmt: skip
+                ))
                 return self.drawn(VectorChain.closing(self.seen(best)), (best,))
         return False
 
@@ -169,7 +169,7 @@ class _Search:
             two = [self.way(e) for e in path if e.unknown]
             sine = abs(cross(*two)) if len(two) == 2 else 0.0
             cost = (float(sine < 0.05), len(path) + 0.6 * self.graph.strange(path) - sine,
-                    float(self.graph.order[path[0].start]))  # fmt: skip
+                    float(self.graph.order[path[0].start]))
             if sine >= FLAT and (best is None or cost < best[0]):
                 best = cost, path
         return best is not None and self.drawn(VectorChain.crossing(best[1]), best[1])
@@ -266,7 +266,7 @@ class _Search:
         p, d = self.line(leg)
         return abs(cross(unit(p - at), d)) if abs(p - at) > self.graph.tiny else 0.0
 
-    # -- the special point of two links that both move -----------------------------------------------------------------
+    # the special point of two links that both move
 
     def take_special_point(self, left_out: Collection[tuple[str, str]]) -> bool:
         """Take the special point of two moving links with the best crossing: they are drawn as if hinged there."""
@@ -321,7 +321,7 @@ class _Search:
         arm = end - self.graph.places[leg[0].start.point]
         return abs(arm) <= self.graph.tiny or abs(cross(unit(arm), along)) < OFF
 
-    # -- the whole -----------------------------------------------------------------------------------------------------
+    # the whole
 
     def run(self, relative: bool, left_out: Collection[tuple[str, str]]) -> bool:
         """Take moves while any is possible; whether the whole group is drawn then.  Special points of two moving links

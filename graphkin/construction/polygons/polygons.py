@@ -91,7 +91,7 @@ class DrawnMotion(NamedTuple):
         """The motion seen from a link, whose points are in the poles, before it is drawn."""
         fixed = dict.fromkeys(map(PointRef, links[ground].points), 0j)
         return cls({order: dict(fixed) for order in ORDERS}, {order: {ground: Rate(ground, 0.0)} for order in ORDERS},
-                   {order: {} for order in ORDERS})  # fmt: skip
+                   {order: {} for order in ORDERS})
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +181,7 @@ class Polygons:
         board = Board(self.board.instrument, equations=self.board.equations, readings=self.board.readings)
         own_values = OwnValues(line=self.own_values.line)
         return replace(self, **motion._asdict(), board=board, own_values=own_values, believed=set(), trial=0, held=held,
-                       part_of=group, seen={})  # fmt: skip
+                       part_of=group, seen={})
 
     def do(self, step: Step) -> None:
         """Record a step.  Seen from a held link only vectors are shown: end points get their letters in the polygon of
@@ -388,7 +388,7 @@ class Polygons:
         parts = [
             ("an", Size("rate", links, names, square=True), inward, -omega * omega * arm),
             ("at", Size("rate", links, names, "alpha"), square, 1j * alpha * arm),
-        ] if order == "acceleration" else [("v", Size("rate", links, names), square, 1j * omega * arm)]  # fmt: skip
+        ] if order == "acceleration" else [("v", Size("rate", links, names), square, 1j * omega * arm)]
         between = self.label(end), self.label(start)
         return tuple(
             Term(replace(Symbol(kind, *between), seen=self.held), True, True, size, direction, span=span)
@@ -410,7 +410,7 @@ def letter(order: Order) -> str:
     return "v" if order == "velocity" else "a"
 
 
-# -- vectors that are asked for and stand in no equation ---------------------------------------------------------------
+# vectors that are asked for and stand in no equation
 
 
 def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:

@@ -145,7 +145,7 @@ class VectorGraph:
         guide_names: Mapping[str, tuple[str, ...]], driven: Collection[str] = (), near: bool = False,
         contacts: Sequence[HigherPair] = (), rolling: Mapping[str, tuple[str, tuple[str, str]]] | None = None,
         contours: Sequence[tuple[str, str]] = (), wide: bool = False,
-    ) -> None:  # fmt: skip
+    ) -> None:
         self.links, self.places, self.tiny = links, places, tiny
         self.inside, self.shares, rolling = inside, shares, rolling or {}
         slides, turns = [p for p in pairs if not p.turns], [p for p in pairs if p.turns]
@@ -198,7 +198,7 @@ class VectorGraph:
         self.under: list[RelativeMotion] = []  # for links that turn alike one edge between coincident points of theirs
         if wide:
             by_pair = {(e.slide or e.joint or e.held, *e.between): e for n in self.nodes for e in self.edges[n]
-                     if e.forward and (e.slide or e.joint or e.held) and "/" not in "".join(e.between)}  # fmt: skip
+                     if e.forward and (e.slide or e.joint or e.held) and "/" not in "".join(e.between)}
             self.under = list(by_pair.values())
 
     def copy(self) -> VectorGraph:
@@ -214,7 +214,7 @@ class VectorGraph:
         # it may come back to where it begins: a pin that both guides belong to
         paths = [path for start in self.in_order(self.known)
                  for path in self.paths(start, 2, self.known.__contains__, self.known, shortest=0)
-                 if sum(bool(e.unknown) for e in path) == 2]  # fmt: skip
+                 if sum(bool(e.unknown) for e in path) == 2]
 
         def cost(path: Path) -> tuple[float, bool, int]:
             start = path[0].start
@@ -227,7 +227,7 @@ class VectorGraph:
     def paths(
         self, start: PointRef, most: int, stop: Callable[[PointRef], bool], nodes: Collection[PointRef],
         known: Collection[Unknown] = (), shortest: int = 1,
-    ) -> Iterator[Path]:  # fmt: skip
+    ) -> Iterator[Path]:
         """Paths from a node through others to their ends.
 
         Parameters
@@ -327,7 +327,7 @@ class VectorGraph:
 def _near(
     links: Mapping[str, PlacedLink], beside: list[tuple[str, str]], contacts: Sequence[HigherPair],
     around: Collection[str], letters: Sequence[str],
-) -> dict[str, set[str]]:  # fmt: skip
+) -> dict[str, set[str]]:
     """For each link the letters of its nodes: its own, and those of links ``beside`` it, which slide on it or are
     turned on it by a driver, and of their neighbours."""
     on = {name: {p for p in letters if p in links[name].points} for name in around}

@@ -180,7 +180,7 @@ def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses)
     paper.settle([r.left_out for r in reduced.removed if r.left_out])
 
 
-# -- what is drawn and measured in trial positions ---------------------------------------------------------------------
+# what is drawn and measured in trial positions
 
 
 def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray) -> Step:
@@ -192,13 +192,13 @@ def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses
     instead = tuple(
         (r.left_out, r.other_side, r.turned) for r in reduced.removed
         if r.left_out and r.slides and any(r.left_out in d.links for d in angles)
-    )  # fmt: skip
+    )
     driven, left_out = tuple(d.key for d in reduced.trial), tuple(r.name for r in reduced.removed if r.rolling is None)
     group = reduced.group
     positions = TrialPositions(
         "trial", "positions", strokes=strokes, links=group.links, group=group.named, driven=driven, left_out=left_out,
         point=point, count=POINTS, rolling=rolling, instead=instead,
-    )  # fmt: skip
+    )
     return _measured(positions, known, reduced, poses, tried[:: BETWEEN if alone else 1]) if tried else positions
 
 
@@ -262,7 +262,7 @@ def _curve(
 def _measured(
     positions: TrialPositions, known: PlacedLinks, reduced: ReducedMechanism, poses: Poses,
     tried: Sequence[TrialDrawing],
-) -> TrialPositions:  # fmt: skip
+) -> TrialPositions:
     """Trial positions with their gaps, and the divisions of these (rad, m), drawn near the final poses of the links."""
     size = reduced.structure.scene.size
     exact = replace(known, instrument=EXACT)
@@ -270,7 +270,7 @@ def _measured(
 
     def row(trial: TrialDrawing) -> TrialRow:
         values = (v + ahead if symbol.measure.is_angle else v * size
-                  for v, (symbol, ahead) in zip(trial.at, moved, strict=True))  # fmt: skip
+                  for v, (symbol, ahead) in zip(trial.at, moved, strict=True))
         misses = (gap if r.is_angle else gap * size for gap, r in zip(trial.gaps, reduced.removed, strict=True))
         return tuple(map(float, values)), tuple(map(float, misses))
 
@@ -314,7 +314,7 @@ def _measured(
     return replace(
         positions, moved=tuple(symbol for symbol, _ in moved), missed=tuple(missed), trials=trials,
         divided=tuple(divided), before=before, parts=() if alone else parts, replaced=() if alone else tuple(replaced),
-    )  # fmt: skip
+    )
 
 
 def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tuple[Symbol, float]:
@@ -330,7 +330,7 @@ def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tup
     return Symbol("theta", link=driver.link, other="" if base == ground else base), lead
 
 
-# -- where the gaps of trial drawings close ----------------------------------------------------------------------------
+# where the gaps of trial drawings close
 
 
 def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
@@ -342,7 +342,7 @@ def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str
     # of several drivers each place of a grid is improved
     axes = [[start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)] for start, end in spans]
     trials = [(max(map(abs, gaps)), values, branches)
-              for values in product(*axes) for branches, gaps in _gaps(reduced, known, values).items()]  # fmt: skip
+              for values in product(*axes) for branches, gaps in _gaps(reduced, known, values).items()]
     for _, values, branches in sorted(trials, key=lambda trial: trial[0])[:MOST_IMPROVED]:
         paper = _drawn(reduced, known, values, branches)
         if paper is None:

@@ -55,7 +55,7 @@ class TurnOfCrank:
 
     @classmethod
     def of(cls, structure: Structure, elements: Sequence[Element], values: Mapping[str, float], poses: Poses,
-           why: str) -> TurnOfCrank:  # fmt: skip
+           why: str) -> TurnOfCrank:
         """Follow a whole turn from the poses of all links at driver ``values``; ``why`` names the asked quantity in a
         message.
 
@@ -119,7 +119,7 @@ class TurnOfCrank:
         most = max(sign * value for _, value in extremes)
         turns = isinstance(output, str)
         return [replace(here, angle=value) if turns else here
-                for here, value in extremes if sign * value > most - EQUAL * swing]  # fmt: skip
+                for here, value in extremes if sign * value > most - EQUAL * swing]
 
     def _refined(self, output: Pair | str, k: int, roughly: float) -> tuple[LimitPosition, float]:
         """The extreme of a curve through the positions about the k-th."""
@@ -151,7 +151,7 @@ class TurnOfCrank:
 def limits_asked(
     structure: Structure, asked: Sequence[Symbol], elements: Sequence[Element], values: Mapping[str, float],
     poses: Poses,
-) -> dict[str, Limits]:  # fmt: skip
+) -> dict[str, Limits]:
     """The limit positions of every drawn output with an asked quantity of the whole turn, by its name, from driver
     values (rad, m) and the links' poses there, on paper of the mechanism's size.
 
@@ -204,7 +204,7 @@ def _follower_limits(scene: Mechanism, asked: Sequence[Symbol], values: Mapping[
 def limits_on_paper(
     exact: Mapping[str, Limits], structure: Structure, elements: Sequence[Element], values: Mapping[str, float],
     scales: Scales, hand: Instrument,
-) -> dict[str, Limits]:  # fmt: skip
+) -> dict[str, Limits]:
     """Limit positions, found by exact hands on paper of the mechanism's size, drawn at a scale by any hands."""
     mm, key, on_paper = 1.0 / scales.length, structure.scene.drivers[0].key, dict[str, Limits]()
     if hand.faultless or structure.scene.instead_of is not None:

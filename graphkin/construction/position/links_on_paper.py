@@ -71,7 +71,7 @@ class PlacedLinks:
         """Places (m) of the points of further links in these poses that no link here has."""
         known = {p for name in self.poses for p in self.links[name].points}
         return {p: pose.place(z * self.mm) / self.mm
-                for n, pose in poses.items() for p, z in self.links[n].points.items() if p not in known}  # fmt: skip
+                for n, pose in poses.items() for p, z in self.links[n].points.items() if p not in known}
 
     def settle(self, names: Sequence[str]) -> None:
         """Prick the new points of links just placed, and put the links where their pricked points are."""
@@ -249,7 +249,7 @@ def coordinate_on_paper(structure: Structure, poses: Poses, mm: float, coordinat
     return cmath.phase(poses[name].axis) if kind == "angle" else travel(structure.slide(name), poses, mm) / mm
 
 
-# -- the links of an element -------------------------------------------------------------------------------------------
+# the links of an element
 
 Steps = tuple[Step, ...]
 
@@ -411,7 +411,7 @@ def _prp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) ->
         return LOST
     poses = {**first.shifted(start1, q - q1), **second.shifted(start2, q - q2)}
     crossing = PlaceStep("cross", "paths", strokes=(Bar(q1, q, ""), Bar(q2, q, "")), point=letter,
-                    pairs=(slides[0].key, slides[1].key))  # fmt: skip
+                    pairs=(slides[0].key, slides[1].key))
     return Intersection(sine, abs(sine), (poses,), lambda _: (crossing,))
 
 
@@ -536,13 +536,13 @@ def assembled(
     return len(list(assemble(paper, elements, choose, rolled))) == len(elements)
 
 
-# -- from one position to another --------------------------------------------------------------------------------------
+# from one position to another
 
 
 def walk(
     near: Callable[[float, Poses, Poses], Poses | None], start: Poses, begin: float, end: float, longest: float,
     shortest: float, surprise: float = math.inf, first: float = 0.0, at_first: float = 0.0,
-) -> Iterator[tuple[float, Poses]]:  # fmt: skip
+) -> Iterator[tuple[float, Poses]]:
     """The positions from one to another, each followed from its predecessor; they end with the motion.
 
     Parameters

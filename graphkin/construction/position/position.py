@@ -85,7 +85,7 @@ class Assembly:
 def place(
     structure: Structure, elements: Sequence[Element], mm: float, assembly: Assembly, instrument: Instrument = EXACT,
     board: Board | None = None,
-) -> PlacedLinks:  # fmt: skip
+) -> PlacedLinks:
     """Place the links of the elements at the driver values of an assembly.
 
     Parameters
@@ -268,7 +268,7 @@ def cams_in_place(
     return analyse(replace(cams_replaced(scene, in_metres, values, bars), starts=starts))
 
 
-# -- others, followed from a known one ---------------------------------------------------------------------------------
+# others, followed from a known one
 
 
 def moved_to(
@@ -327,7 +327,7 @@ def found_near(
     return dict(paper.poses) if assembled(paper, placed.elements, choose, rolled) else None
 
 
-# -- the scene's own position ------------------------------------------------------------------------------------------
+# the scene's own position
 
 
 def own_position(
@@ -450,6 +450,6 @@ def _without_twins(
         places = paper.fresh(poses)
         # of links without points the links themselves
         if all(any(abs(z - other[p]) > apart for p, z in places.items())
-               or (not places and moved(poses, kept_poses) > TWINS) for kept_poses, other in kept):  # fmt: skip
+               or (not places and moved(poses, kept_poses) > TWINS) for kept_poses, other in kept):
             kept.append((poses, places))
     return [poses for poses in fits if any(poses is kept_poses for kept_poses, _ in kept)]

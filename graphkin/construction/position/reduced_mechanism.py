@@ -221,7 +221,7 @@ def _trials(structure: Structure, group: LargerGroup, gone: set[str], known: set
             yield Driver(pair.a, pair.b, 0.0, 0.0, 0.0)
 
 
-# -- what is left out --------------------------------------------------------------------------------------------------
+# what is left out
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -308,7 +308,7 @@ class RemovedConstraint:
         poses = paper.poses
         if self.kind == "guides":
             (p, to_p), (q, to_q) = ([self._slid(slide, poses, mm, paper.mm).origin for mm in (0.0, paper.mm)]
-                                    for slide in self.slides)  # fmt: skip
+                                    for slide in self.slides)
             at_both = cross_lines(p, to_p - p, q, to_q - q)
             return None if at_both is None else Pose(at_both, self._slid(self.slides[0], poses).axis)
         (local, at), *other = self._hinges(paper)
@@ -343,7 +343,7 @@ class RemovedConstraint:
         return rail.axis * slide.guide.direction
 
 
-# -- trial drawings ----------------------------------------------------------------------------------------------------
+# trial drawings
 
 
 class PlacedElements:

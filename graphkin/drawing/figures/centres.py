@@ -38,7 +38,7 @@ from graphkin.drawing.boxes import (
     prose,
     row,
     rows,
-)  # fmt: skip
+)
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import (
@@ -76,7 +76,7 @@ def id_of(pair: LinkPair) -> str:
     return "centre-" + "-".join(sorted(pair))
 
 
-# -- the circle diagram ------------------------------------------------------------------------------------------------
+# the circle diagram
 
 HALF = 1.9  # mm of a line left out to either side of its number
 CLEAR, WIDE = 1.55, 3.0  # mm from a number's middle to anything else, at least and at best
@@ -123,7 +123,7 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
         there = middle + (radius + OUTSIDE + max(box.width * abs(spoke.real), box.height) / 2) * spoke
         foot = there - 1j * (box.top + box.bottom) / 2
         knots += [Circle(middle + radius * spoke, 1.1, colour),
-                  Text(foot, runs, "middle", colour, f"label-circle-{name}", ("label",))]  # fmt: skip
+                  Text(foot, runs, "middle", colour, f"label-circle-{name}", ("label",))]
     whole = (*outline, *lines, *numbers, *knots)
     return Group(whole, id="circle-diagram", classes=("circle-diagram",))
 
@@ -131,7 +131,7 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
 def _free(
     a: complex, b: complex, others: Sequence[tuple[complex, complex]], taken: Sequence[complex],
     middle: complex, radius: float,
-) -> complex | None:  # fmt: skip
+) -> complex | None:
     """The place on a side that lies farthest from all other sides, from the circle and from placed numbers; None where
     a number would touch one of them."""
     places = a + (b - a) * SHARES
@@ -147,7 +147,7 @@ def _free(
     return spots[best] if room[best] > CLEAR else None
 
 
-# -- marks of centres --------------------------------------------------------------------------------------------------
+# marks of centres
 
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
 BEYOND = 5.0  # mm of a construction line beyond what it finds
@@ -198,7 +198,7 @@ def centre_marks(centres: Centres, letters: Notation, panel: Box, drawn: tuple[P
     names = [
         Label.of(rich(_lines_of(c, letters), SMALLEST), _spot(c), f"label-lines-{id_of(c.pair)}",
                  colour=strokes.GREY, rank=3) for group in near for c in group if c.lines
-    ]  # fmt: skip
+    ]
     marks: list[Primitive] = []
     for group in near:
         spot = _spot(group[0])
@@ -208,7 +208,7 @@ def centre_marks(centres: Centres, letters: Notation, panel: Box, drawn: tuple[P
             marks.append(Group(mark, id=id_of(c.pair), classes=("centre", c.kind, *step)))
         runs = stacked(_names(group, letters), 3.5)
         names.append(Label.of(runs, spot, f"label-{id_of(group[0].pair)}", classes=("centre",),
-                              key=_key(group, letters) if len(group) > 1 else None))  # fmt: skip
+                              key=_key(group, letters) if len(group) > 1 else None))
     solid = [*obstacles_of(drawn).solid, *((line.start, line.end) for line in lines)]
     for spot in (_spot(group[0]) for group in near):
         solid += [(spot - 4.0, spot + 4.0), (spot - 4.0j, spot + 4.0j)]
@@ -216,7 +216,7 @@ def centre_marks(centres: Centres, letters: Notation, panel: Box, drawn: tuple[P
         tail, tip = _pointer(inside, solid, group[0])
         solid.append((tail, tip))
         marks += [Group(arrow(tail, tip, POINTER) if c is group[0] else (), id=id_of(c.pair),
-                        classes=("centre", "far", c.kind)) for c in group]  # fmt: skip
+                        classes=("centre", "far", c.kind)) for c in group]
         names.append(Label.of(stacked(_far_names(centres, group, letters), 3.2), (tail, tip),
                               f"label-{id_of(group[0].pair)}", classes=("centre",), key=_key(group, letters)))
     # over the tint of links, under the marks
@@ -334,7 +334,7 @@ def _pointer(inside: Box, solid: Sequence[Segment], centre: Centre) -> Segment:
     return arrows[clearest(np.array(prices), ((points, FAR_CLEAR, 1.0),), drawn)]
 
 
-# -- the figure --------------------------------------------------------------------------------------------------------
+# the figure
 
 ROOM = 9.0  # mm around the centres, for names
 MOST = (150.0, 150.0)  # mm that the mechanism with its near centres may fill
@@ -376,7 +376,7 @@ def background(piece: Piece, *also: str) -> Piece:
     kept = tuple(
         thing for thing in piece.layers["mechanism"]
         if isinstance(thing, Group) and {"frame", "link", "point", "cam", *also} & set(thing.classes)
-    )  # fmt: skip
+    )
     names = tuple(name for name in piece.labels if name.text.id.startswith(("label-point-", "label-link-")))
     return Piece({"mechanism": pale(kept)}, names, piece.marks)
 
@@ -389,7 +389,7 @@ def _side(page: FigurePage, centres: Centres) -> Block:
     found = [
         (c.number, letters.centre(c.pair), _how_found(c, letters, page.language))
         for c in centres.found if c.number
-    ]  # fmt: skip
+    ]
     wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for _, name, _ in found)])
     # long names of links need more room, in the circle diagram and in the list: of each line, and the × at its end
     longest = max(runs_width(plain(name, KNOT, bold=True)) for name in centres.names)
@@ -402,7 +402,7 @@ def _side(page: FigurePage, centres: Centres) -> Block:
         row(numeral(number, 7.0, classes=LEGEND), prose((name,), wide, classes=LEGEND),
             prose((how,), width - 7.0 - wide, classes=LEGEND))
         for number, name, how in found
-    )  # fmt: skip
+    )
     return column(title, circle, column(*_legend(page, centres), gap=0.8), column(*order), gap=1.5)
 
 
@@ -413,7 +413,7 @@ def _legend(page: FigurePage, centres: Centres) -> Iterator[Block]:
         "permanent fixed": lambda c: c.kind == "permanent" and frame in c.pair,
         "permanent moving": lambda c: c.kind == "permanent" and frame not in c.pair,
         "by Kennedy": lambda c: c.kind == "found" and not c.way, "otherwise": lambda c: bool(c.way),
-    }  # fmt: skip
+    }
     for kind, holds in kinds.items():
         first = next((c for c in centres.found if holds(c)), None)
         if first is not None:
@@ -444,7 +444,7 @@ def _report(page: FigurePage, centres: Centres, velocities: Sequence[Phrase]) ->
     head = [page.term("velocities by centres")] if velocities else []
     wide = page.width
     return column(prose(lines, wide, 3.0, classes=TOLD), prose(head, wide, 3.2, bold=True, classes=TOLD),
-                  prose(told, wide, 3.0, classes=TOLD))  # fmt: skip
+                  prose(told, wide, 3.0, classes=TOLD))
 
 
 def _rich(phrase: Phrase, language: str, letters: Notation) -> RichText:
@@ -475,7 +475,7 @@ def _description(page: FigurePage, centres: Centres, velocities: Sequence[Phrase
     return "\n".join(said)
 
 
-# -- where names have no room ------------------------------------------------------------------------------------------
+# where names have no room
 
 WIDTH = 194.0  # mm of a page between its margins
 COLUMNS, ROWS = 2, 3
@@ -492,7 +492,7 @@ def named_centres(piece: Piece, panel: Box, centres: Centres) -> Piece:
         named, crowded = with_crowd(piece, panel)
         ids = _overlapping(named) if crowded else set()
         overlapping = ([label for label in some if label.text.id in ids and _found(label, centres)]
-                       for some in (crowded, piece.labels))  # fmt: skip
+                       for some in (crowded, piece.labels))
         marks = {label.mark for label in next(filter(None, overlapping), ())}
         if not marks:
             break
@@ -509,7 +509,7 @@ def _overlapping(named: Piece) -> set[str]:
     return ids | {
         name.id for leader, name in pairwise(written) if isinstance(leader, Line) and isinstance(name, Text)
         and any(joint.clip(leader.start, leader.end) and joint.distance(leader.start) > 0.0 for joint in joints)
-    }  # fmt: skip
+    }
 
 
 def _found(label: Label, centres: Centres) -> bool:
@@ -525,9 +525,9 @@ def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
     things = walk(drawn)
     ids = {thing.id for thing in things if isinstance(thing, Text)}
     near = {thing.id for thing in things if isinstance(thing, Group) and "centre" in thing.classes
-            and "far" not in thing.classes}  # fmt: skip
+            and "far" not in thing.classes}
     return tuple(c for c in centres.found if c.lines and id_of(c.pair) in near
-                 and f"label-lines-{id_of(c.pair)}" not in ids)  # fmt: skip
+                 and f"label-lines-{id_of(c.pair)}" not in ids)
 
 
 def _centre_by_centre(page: FigurePage, centres: Centres, some: Sequence[Centre]) -> Iterator[Drawing]:
@@ -547,7 +547,7 @@ def _centre_by_centre(page: FigurePage, centres: Centres, some: Sequence[Centre]
         yield page.drawing(
             page.term("lines of centres"), column(*rows(pictures, WIDTH, BETWEEN), gap=BETWEEN),
             page.scale("mechanism"), title="lines of centres", said="\n".join(said),
-        )  # fmt: skip
+        )
 
 
 def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Notation, room: Box) -> Piece:

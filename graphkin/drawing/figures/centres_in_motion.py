@@ -39,7 +39,7 @@ Places = NDArray[np.complex128]
 def centres_in_motion(
     page: FigurePage, centres: Centres, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
     points: Mapping[str, Places], paths: Mapping[LinkPair, Places],
-) -> Drawing:  # fmt: skip
+) -> Drawing:
     """Draw a mechanism with its centres, all moving together, and the paths of the centres.
 
     Parameters
@@ -72,7 +72,7 @@ def centres_in_motion(
     return page.drawing(
         page.term("centres in motion"), figure, page.scale("mechanism"), title="centres",
         said=page.term("centres in motion") + page.punctuation("full stop"),
-    )  # fmt: skip
+    )
 
 
 def _inside(path: Places, box: Box) -> Places:
@@ -95,7 +95,7 @@ def _travel(path: Places, base: complex, turned: NDArray[np.float64] | None = No
 def _moving(
     thing: Primitive, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
     points: Mapping[str, Places],
-) -> Primitive:  # fmt: skip
+) -> Primitive:
     if not isinstance(thing, Group):
         return thing
     kind, _, name = thing.id.partition("-")
@@ -141,7 +141,7 @@ FIXED, MOVING, COUPLER = Stroke(0.5), Stroke(0.5, (3.0, 1.2)), Stroke(0.25, (0.8
 def centrodes_figure(
     page: FigurePage, centres: Centres, link: str, fixed: Sequence[Branch], moving: Sequence[Branch],
     curve: Sequence[Branch] = (), point: str = "",
-) -> Drawing:  # fmt: skip
+) -> Drawing:
     """Draw the centrodes of a link about the mechanism, cut where they leave its surroundings.
 
     Parameters
@@ -180,14 +180,14 @@ def centrodes_figure(
     keys = [
         row(Block(Piece({"labels": (Line(2.2j, KEY - 3.0 + 2.2j, stroke),)}), 0.0, KEY),
             prose(said, page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend
-    ]  # fmt: skip
+    ]
     first = languages(page.language)[0]
     end = word("full stop", first) + word("between sentences", first)
     return page.drawing(
         page.at_drivers(f"{page.term('centrodes')} {link}"),
         column(figure, *keys), page.scale("mechanism"), title="centrodes",
         said="".join(str(said[0]) + end for said, _ in legend).strip(),
-    )  # fmt: skip
+    )
 
 
 def _clipped(branches: Sequence[Branch], stroke: Stroke, box: Box) -> tuple[Primitive, ...]:

@@ -57,7 +57,7 @@ from graphkin.words import Phrase, in_all, languages, say, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import amount, on_paper, printed, product
 
-# -- a synthesis -------------------------------------------------------------------------------------------------------
+# a synthesis
 
 ROOM = 9.0  # mm around the construction, for names
 PANEL = (168.0, 128.0)  # mm that the construction may fill
@@ -65,7 +65,7 @@ FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the 
 _LINES: dict[str, Stroke] = {
     "given": strokes.LINK, "construction": strokes.CONSTRUCTION, "limit": strokes.LIMIT,
     "mechanism": Stroke(0.7),
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def _content(sheet: Sheet) -> Box:
     near += [z for s in made if isinstance(s, Bar) for z in (s.a, s.b) if z not in far]
     box = Box.around(map(on_page, near))
     circles = [Box.around((on_page(s.centre),)).grown(s.radius)
-               for s in made if isinstance(s, CompassArc) and s.whole]  # fmt: skip
+               for s in made if isinstance(s, CompassArc) and s.whole]
     for most, more in (*((FAR, Box.around((on_page(z),))) for z in far), *((WHOLE, circle) for circle in circles)):
         wider = box.joined(more)
         if max(wider.width, wider.height) <= most * max(box.width, box.height):
@@ -113,7 +113,7 @@ def _content(sheet: Sheet) -> Box:
 def design_figure(
     design: Design, sheet: Sheet, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed],
     notes: Iterable[Phrase], language: str,
-) -> Drawing:  # fmt: skip
+) -> Drawing:
     """Draw a synthesis on a page of its own.
 
     Parameters
@@ -131,7 +131,7 @@ def design_figure(
         _tables(design, sheet.scales.length, rows, confirmed, language), notes, _design_scale(design, sheet),
         title="design figure", said=f"{said} {lengths}", language=language,
         metadata=_design_facts(design, sheet) | facts,
-    )  # fmt: skip
+    )
 
 
 def _design_scale(design: Design, sheet: Sheet) -> str:
@@ -146,7 +146,7 @@ def _design_facts(design: Design, sheet: Sheet) -> dict[str, object]:
 def construction_picture(design: Design, sheet: Sheet, language: str, upto: int | None = None) -> Drawing:
     """The construction by itself, up to a step, on a figure of the size of the whole."""
     return picture(_construction(sheet, upto), "design figure", language, _design_facts(design, sheet),
-                   _design_scale(design, sheet))  # fmt: skip
+                   _design_scale(design, sheet))
 
 
 def asked_words(design: Design, language: str) -> RichText:
@@ -257,12 +257,12 @@ def _tables(
         [[length_letters(length.symbol), on_paper(length.on_paper),
           printed(product(on_paper(length.on_paper), per)), number(length.exact)] for length in rows],
         (26.0, 24.0, 28.0, 28.0), layer="answers",
-    )  # fmt: skip
+    )
     turned = table(
         [[word(key, each) for key in ("confirmed", "given wish", "by the turn")] for each in every],
         [[" ".join(dict.fromkeys(say(value.what, each) for each in every)), value.shown(value.asked),
           value.shown(value.found)] for value in confirmed], (34.0, 20.0, 22.0), layer="answers",
-    )  # fmt: skip
+    )
     return row(lengths, turned, gap=4.0)
 
 
@@ -272,7 +272,7 @@ CHART_WIDTH, CHART_HEIGHT = 150.0, 95.0
 def choice_chart(
     design: Design, key: str, at: Callable[[float], float | None], span: tuple[float, float],
     here: tuple[float, float], best: tuple[float, float], language: str,
-) -> chart.ChartPage:  # fmt: skip
+) -> chart.ChartPage:
     """The least transmission angle over the values that a free datum may have, with the design's own and the best."""
     # a range without end is shown as far as it tells
     low, high = max(span[0], min(here[0], best[0]) / 4), min(span[1], 4 * max(here[0], best[0]))
@@ -285,7 +285,7 @@ def choice_chart(
         chart.add_words(figure, Text(complex(8.0, 10.0), rich(title, 4.0, bold=True)))
         box = Box(20.0, 22.0, CHART_WIDTH - 8.0, CHART_HEIGHT - 16.0)
         axes = chart.add_panel(figure, box, "choice", f"{word('least angle', language)} (°)",
-                               f"{word(f'datum {key}', language)} ({design.units.length})")  # fmt: skip
+                               f"{word(f'datum {key}', language)} ({design.units.length})")
         axes.set_xlim(low, high)
         top = 5.0 * math.ceil((float(np.nanmax(y)) + 3.0) / 5.0)
         axes.set_ylim(0.0, top)
@@ -302,7 +302,7 @@ def choice_chart(
     return chart.ChartPage(CHART_WIDTH, CHART_HEIGHT, paint, title=title, desc=title, lang=language, metadata=facts)
 
 
-# -- a cam -------------------------------------------------------------------------------------------------------------
+# a cam
 
 GUTTER = 8.0  # mm between columns of the table
 CAM_PANEL = (150.0, 140.0)  # mm that the cam may fill
@@ -350,7 +350,7 @@ def cam_figure(scene: Mechanism, cam: LawCam, sheet: Sheet, notes: Sequence[Phra
         names, _given(scene, cam, language), [_diagram(scene, cam, sheet, language), _cam(scene, cam, sheet)], sheet,
         _table(scene, cam, sheet), notes, _scale(scene, sheet), title="cam figure", said=said, language=language,
         metadata=_facts(scene, cam) | facts,
-    )  # fmt: skip
+    )
 
 
 def _scale(scene: Mechanism, sheet: Sheet) -> RichText:
@@ -367,7 +367,7 @@ def cam_pictures(
     """The displacement diagram and the cam, each by itself; ``begun`` leaves out the parts to be found."""
     facts = _facts(scene, cam)
     return (picture(_diagram(scene, cam, sheet, language, begun), "cam diagram", language, facts),
-            picture(_cam(scene, cam, sheet, begun), "cam figure", language, facts, _scale(scene, sheet)))  # fmt: skip
+            picture(_cam(scene, cam, sheet, begun), "cam figure", language, facts, _scale(scene, sheet)))
 
 
 def cam_given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
@@ -377,7 +377,7 @@ def cam_given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
         said = f"{number(math.degrees(piece.start))}°–{number(math.degrees(piece.end))}°"
         lift = _lift(scene, cam, piece.high - piece.low)
         pieces.append(f"{said} {_law(piece.by, language)}"
-                      + (f" {'+' if lift > 0 else '−'}{number(abs(lift))}{unit}" if piece.by else ""))  # fmt: skip
+                      + (f" {'+' if lift > 0 else '−'}{number(abs(lift))}{unit}" if piece.by else ""))
     comma, semicolon = (word(f"list {mark}", language) for mark in ("comma", "semicolon"))
     return _given(scene, cam, language) + semicolon + comma.join(pieces)
 
@@ -395,7 +395,7 @@ def _given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
     else:
         lengths |= {sign("l"): cam.motion.arm, sign("a"): abs(cam.axis - cam.motion.centre)}
     parts = (letter + f" = {number(length / scene.units.metres)} {scene.units.length}"
-             for letter, length in lengths.items() if length)  # fmt: skip
+             for letter, length in lengths.items() if length)
     kind = term("cam flat" if cam.flat else "cam roller" if cam.roller else "cam edge", language)
     sense = "counter-clockwise" if cam.sense > 0 else "clockwise"
     turns = spaced(" ", in_all(Phrase("cam turns", sense=Phrase(sense)), language))
@@ -430,7 +430,7 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
 
     curve = tuple(at(degree, part.at(degree).lift) for part in law.parts for degree in part.places(120))
     drawn: list[Primitive] = [Line(origin, origin + LONG + 5.0, strokes.DIMENSION),
-                              Line(origin, top - 5.0j, strokes.DIMENSION)]  # fmt: skip
+                              Line(origin, top - 5.0j, strokes.DIMENSION)]
     labels: list[Primitive] = []
     divided = [] if begun else [(d.degree, d.lift, str(k)) for k, d in enumerate(divisions(sheet))]
     free = below = 0.0  # of numbers, and of angles too wide for their pieces, from here on
@@ -562,7 +562,7 @@ def _table(scene: Mechanism, cam: LawCam, sheet: Sheet) -> Block:
     columns = -(-len(drawn_at) // ROWS)
     count = -(-len(drawn_at) // columns)
     cells = [[str(k), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, cam, d.lift):.3f}",
-              f"{math.degrees(d.pressure):.2f}"] for k, d in enumerate(drawn_at)]  # fmt: skip
+              f"{math.degrees(d.pressure):.2f}"] for k, d in enumerate(drawn_at)]
     wide = (WORKED - GUTTER * (columns - 1)) / columns
     widths = [share * wide for share in (0.16, 0.26, 0.32, 0.26)]
     tables = (table([heads], cells[k : k + count], widths, layer="answers") for k in range(0, len(cells), count))

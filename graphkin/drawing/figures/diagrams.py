@@ -81,7 +81,7 @@ def diagram_figure(diagram: DiagramName, page: FigurePage) -> Drawing | None:
         page.at_drivers(page.term(title)), column(told, page.panel(content.height + 2 * ROOM + strip, drawn), gap=GAP),
         spaced(",  ", filter(None, (page.scale(diagram), unit))), title=title, said=describe(sheet, (diagram,), spoken),
         note="" if diagram == "mechanism" else term("step number", page.language, number="(9)"),
-    )  # fmt: skip
+    )
 
 
 def diagram_figures(page: FigurePage, names: Sequence[DiagramName] = DIAGRAMS) -> dict[str, Drawing]:
@@ -175,7 +175,7 @@ def _page(
     return page.drawing(
         spaced(";  ", scales), row(*positions, gap=GUTTER), "", title="polygons",
         said=page.punctuation("symbol comma").join(names), metadata={"positions": names},
-    )  # fmt: skip
+    )
 
 
 def _position(
@@ -196,7 +196,7 @@ def _position(
     found = [
         letters.vector(r.symbol) + f" = {printed(measured(r, units))} {r.symbol.unit(units).written}"
         for r in read_off(sheet, [s for s in sheet.scene.question.find if s.scope == "motion" and not s.at])
-    ] if sheet.scene.question.find else []  # fmt: skip
+    ] if sheet.scene.question.find else []
     panels = (framed(panel(*size, partial(polygon, diagram))) for diagram in shown)
     return column(line(head, size[0], 3.2), column(*panels, prose((spaced(";  ", found),), size[0]), gap=GUTTER))
 
@@ -211,4 +211,4 @@ FIGURES = (
       for place, name in enumerate(DIAGRAMS, 1)),
     Figure("polygons", polygons_beside, "sheets beside", of_all=True, place=8),
     Figure("contacts", contacts_figure, "sheet at contacts", _touches, of_all=True, place=10),
-)  # fmt: skip
+)

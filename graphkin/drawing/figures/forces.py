@@ -88,7 +88,7 @@ def forces_figure(page: FigurePage, report: Report) -> Drawing:
             note=" ".join(map(str, page.said("sheet number", number=number))) if number > 1 else "",
             metadata={"scales": {name: float(f"{per:.12g}") for name, per in scales.items()}},
         ) for number, body in enumerate(pages(blocks, room, APART), 1)
-    )  # fmt: skip
+    )
     further = [replace(drawn, title=f"{drawn.title} ({number})") for number, drawn in enumerate(further, 2)]
     return replace(first, further=tuple(further))
 
@@ -101,7 +101,7 @@ def _given(page: FigurePage) -> Block:
         page.prose((page.term("given"),), bold=True), page.prose(given_loads(page.sheet, page.letters)),
         page.prose((Phrase("force inertia"),) * bool(inertia), bold=True), page.prose(inertia),
         page.prose(told.said for told in told_of(account, page.sheet.springs)),
-    )  # fmt: skip
+    )
 
 
 def _groups(page: FigurePage, room: float) -> Iterator[Block]:
@@ -146,7 +146,7 @@ def group_picture(page: FigurePage, stage: ForceStage, tag: str) -> Drawing:
     whole = column(*_pictures(page, stage, Counter(), tag), gap=CLOSE)
     parts = tied(layer_groups(whole.piece))  # leaders come with their names
     return Drawing(max(page.width, whole.width), whole.height, parts, figure_title(page.sheet, "forces", page.language),
-                   str(page.said("force described")[0]), languages(page.language)[0])  # fmt: skip
+                   str(page.said("force described")[0]), languages(page.language)[0])
 
 
 def _pictures(
@@ -191,7 +191,7 @@ def _below(page: FigurePage, account: Account, stage: ForceStage) -> Block:
         page.prose(said),
         None if equation is None else Block(Piece({"labels": (Group(equation.children),)}), equation.height),
         page.prose((*couples, read) if read else couples), gap=CLOSE,
-    )  # fmt: skip
+    )
 
 
 def group_equation(page: FigurePage, group: ForceGroup) -> Drawing | None:
@@ -218,7 +218,7 @@ def _tables(page: FigurePage, some: Sequence[TableRow]) -> Iterator[Block]:
         yield column(caption, Block(Piece({"answers": readings}), height), sentences)
 
 
-# -- a group cut free --------------------------------------------------------------------------------------------------
+# a group cut free
 
 ARROW, NEXT = 11.0, 4.0  # mm of an arrow that only shows a direction, and how much longer the next along the same line
 NEAR = 0.5
@@ -253,7 +253,7 @@ def _extent(sheet: Sheet, group: ForceGroup) -> Box:
     links, known, mm = set(_cut_free(group)), sheet.structure.links, 1.0 / sheet.scales.length
     spots = [v.at for v in _outside(group)] + [sheet.poses[name].origin for name in links if name in sheet.poses]
     spots += [z for ref, z in sheet.points.items()
-              if not ref.link and any(ref.point in known[n].points for n in links if n in known)]  # fmt: skip
+              if not ref.link and any(ref.point in known[n].points for n in links if n in known)]
     return Box.around(map(on_page, spots + Touching(sheet.scene, mm, sheet.poses).outermost(links)))
 
 
@@ -317,7 +317,7 @@ def _acting(plate: Plate, page: FigurePage, stage: ForceStage, times: float, tag
         tip = at + along * (ARROW + NEXT * stacked)
         plate.arrow("forces", f"acts-{tag}-{n}", at, tip, _letters_of(letters, vector),
                     kind=_kind(vector), colour=_colour(sheet, vector), classes=("acting",),
-                    step=group.on_links(vector))  # fmt: skip
+                    step=group.on_links(vector))
     first, *_ = group.steps
     turning = [(first, load) for load in first.acting if not load.force]
     turning += [(step, step.found) for step in group.moments(*COUPLES)]
@@ -368,12 +368,12 @@ def _arms(plate: Plate, stage: ForceStage, times: float) -> None:
     """Arms of the moments by which parts were found, from the point to the line of each force."""
     for step in stage.group.moments(*BY_MOMENTS, "balance"):
         lines = [Line.between(term.about * times, term.foot * times, strokes.DIRECTION)
-                 for term in step.terms if term.arm is not None and abs(term.arm) * times >= 1.0]  # fmt: skip
+                 for term in step.terms if term.arm is not None and abs(term.arm) * times >= 1.0]
         if lines:
             plate.put("construction", *lines, classes=("arms",), step=step.number)
 
 
-# -- polygons ----------------------------------------------------------------------------------------------------------
+# polygons
 
 SHORT = 0.02  # mm: a shorter force is a dot
 
@@ -396,7 +396,7 @@ def _polygons(group: ForceGroup) -> list[_Polygon]:
             alone.append((links, vectors))
     made = [((), group.polygon, closing)] if group.polygon else []
     return [(links, vectors, inside, _box((*vectors, *inside)).grown(AROUND))
-            for links, vectors, inside in (*made, *((links, vectors, ()) for links, vectors in alone))]  # fmt: skip
+            for links, vectors, inside in (*made, *((links, vectors, ()) for links, vectors in alone))]
 
 
 def _box(vectors: Sequence[ForceVector]) -> Box:
@@ -430,7 +430,7 @@ def _drawn_polygon(
         step = group.in_polygon(vector, links)
         if shift:
             aside = (Line.between(true, shown, strokes.CONSTRUCTION)
-                     for true, shown in ((vector.tail, tail), (vector.tip, tip)))  # fmt: skip
+                     for true, shown in ((vector.tail, tail), (vector.tip, tip)))
             plate.put("construction", *aside, step=step)
         arrow(vector, tail, tip, step, 0 if not vector.known or abs(vector.span) > 3.0 else 2)
     for whole in _wholes(vectors):
@@ -439,7 +439,7 @@ def _drawn_polygon(
         names[f"corner-{letter}"] += 1
         name = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
         plate.name(rich(sign(letter), 3.0), place + shifts.get(_key(vector), 0j), name, rank=1,
-                   step=group.in_polygon(vector, links))  # fmt: skip
+                   step=group.in_polygon(vector, links))
     unknown = [v for v in vectors if not v.known]
     for vector in (v for v in unknown if abs(v.span) <= SHORT):
         plate.circle("construction", vector.tip, 0.4, strokes.BLACK)
@@ -469,7 +469,7 @@ def _wholes(vectors: Sequence[ForceVector]) -> Iterator[ForceVector]:
                 yield whole
 
 
-# -- Zhukovsky's lever -------------------------------------------------------------------------------------------------
+# Zhukovsky's lever
 
 LEVER_ARROW, LEVER_ROOM = 14.0, 20.0  # mm of an arrow that only shows a direction, and around the lever
 COLUMNS = 42.0, 34.0, 34.0, 64.0  # mm: force, its size, arm, moment
@@ -492,7 +492,7 @@ def lever_figure(page: FigurePage, report: Report | None = None) -> Drawing | No
     return page.drawing(
         page.at_drivers(page.term("lever")), column(*body, gap=3.0), "", title="lever",
         said=page.said("lever described")[0], metadata={"scales": {"velocity": float(f"{per:.12g}")}},
-    )  # fmt: skip
+    )
 
 
 def _lever(page: FigurePage, lever: Lever, tag: str) -> Iterator[Block]:
@@ -505,7 +505,7 @@ def _lever(page: FigurePage, lever: Lever, tag: str) -> Iterator[Block]:
     heads = [
         [word("force heads", each), units.force, f"{word('arm', each)}, mm",
          f"{word('moment about pole', each)}, {units.force}·mm"] for each in languages(page.language)
-    ]  # fmt: skip
+    ]
     rows = [(_named(row, page.letters), *map(printed, written)) for row, *written in lever_sum(page.sheet, lever)[0]]
     yield table(heads, rows, COLUMNS)
     *_, told = told_of(Account(page.sheet, page.letters), lever.steps, lever=lever)
@@ -542,7 +542,7 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
             name = f"{term.symbol.id}{'-opposite' * turned}{f'-{n}' if len(acting) > 1 else ''}"
             plate.arrow("forces", f"lever-{name}{tag}", at, at + along * (LEVER_ARROW + NEXT * stacked), named,
                         kind=RESULTANT if balances else COMPONENT, classes=("acting",),
-                        colour=strokes.LINK_COLOURS[1] if balances else strokes.BLACK)  # fmt: skip
+                        colour=strokes.LINK_COLOURS[1] if balances else strokes.BLACK)
         if term.pair is None and term.arm and abs(term.arm) > SEEN * per_mm and acting:
             at, along = acting[0]
             foot = -1j * along * term.arm / per_mm

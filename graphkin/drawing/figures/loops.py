@@ -54,13 +54,13 @@ def loops_figure(page: FigurePage) -> Drawing | None:
         return None
     scale, loops = _scale(blocks), [(block, loop) for block in blocks for loop in block.loops]
     heads = (Phrase("loop heading", loop=loop.name, links=listed(loop.links), equation=listed(loop.points))
-             for _, loop in loops)  # fmt: skip
+             for _, loop in loops)
     return page.drawing(
         page.at_drivers(page.term("loops")), column(*(_loop(page, *loop, scale) for loop in loops), gap=5.0),
         page.scale("mechanism", scale), title="loops",
         said=". ".join(say(head, each) for each, head in product(languages(page.language), heads)),
         metadata={"scales": {"length": scale / sheet.scene.units.metres}},
-    )  # fmt: skip
+    )
 
 
 def _loop(page: FigurePage, block: LoopBlock, loop: Loop, scale: float) -> Block:
@@ -74,7 +74,7 @@ def _loop(page: FigurePage, block: LoopBlock, loop: Loop, scale: float) -> Block
         part for matrix in (matrices(block, page.sheet.scene) if loop is block.loops[-1] else ())
         for part in (prose((page.term(matrix.key),), width, bold=True), _matrix(matrix, width),
                      prose((spaced(",  ", matrix.solution),), width))
-    ]  # fmt: skip
+    ]
     return row(polygon, column(column(*lines), column(*solved, gap=1.2), gap=1.0), gap=BESIDE)
 
 
@@ -103,7 +103,7 @@ def _polygon(sheet: Sheet, loop: Loop, block: LoopBlock, scale: float) -> tuple[
     for k, (arrow, tail, tip) in enumerate(zip(loop.arrows, corners, corners[1:], strict=False), 1):
         colour, ends = colour_of_link(sheet.scene, arrow.link), "".join(arrow.names) or str(k)
         drawn.append(symbols.vector_group(f"loop-{name}-{k}-{ends}", None, on_page(tail), on_page(tip),
-                                          symbols.RESULTANT, colour, f"{name}: {ends}", ("loop",)))  # fmt: skip
+                                          symbols.RESULTANT, colour, f"{name}: {ends}", ("loop",)))
         if abs(tip - tail) < 1e-6:
             continue
         unknown = ("travel", arrow.slide) in block.unknowns

@@ -174,7 +174,7 @@ def _paths(structure: Structure, turn: TurnOfCrank, own: Sheet) -> dict[str, lis
                 found.setdefault(point, [
                     (one.poses[name].origin + one.poses[name].axis * local / structure.scene.size) * mm
                     for one in turn.positions
-                ])  # fmt: skip
+                ])
     return found
 
 
@@ -210,7 +210,7 @@ def _least(
     return sheet, gamma(best), (at, -first, -second)
 
 
-# -- the figure --------------------------------------------------------------------------------------------------------
+# the figure
 
 
 def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
@@ -218,14 +218,14 @@ def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
     sheet, letters = page.sheet, page.letters
     numbered = [_position(position, letters, NUMBERED, f"position-{name}") for name, position in shown.numbered.items()]
     limits = [_position(position, letters, strokes.LIMIT, f"limit-{shown.output.replace('/', '-')}-{end}")
-              for end, position in zip(("low", "high"), shown.limits, strict=False)]  # fmt: skip
+              for end, position in zip(("low", "high"), shown.limits, strict=False)]
     least = []
     if shown.least is not None and "gamma" in shown.marks:
         least = [_position(shown.least[0], letters, NUMBERED, "least-transmission"), _gamma(shown)]
     paths = Piece({"construction": tuple(
         Group((Polyline(tuple(map(on_page, places)), PATH),), id=f"path-{point}", classes=("path",))
         for point, places in shown.paths.items() if len(places) > 1
-    )})  # fmt: skip
+    )})
     back: tuple[Primitive, ...] = ()
     if (crank := _limits_of_crank(shown)) is not None:  # drawn beyond its pivot in its second limit position
         _, pivot, _, second = crank
@@ -241,7 +241,7 @@ def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
     return page.drawing(
         page.term("positions"), column(page.prose(lines, 3.0), figure, gap=GAP), page.scale("mechanism"),
         title="positions", said=spaced(". ", (page.term("positions"), *lines)),
-    )  # fmt: skip
+    )
 
 
 def _position(sheet: Sheet, letters: Notation, stroke: Stroke, id: str) -> Piece:
@@ -392,7 +392,7 @@ def _gamma(shown: Shown) -> Piece:
     turn = math.remainder(end - start, math.tau)
     plate, words = Plate(), rich(sign("γ", "min") + f" = {number(math.degrees(gamma), 5)}°", 2.8)
     lines = [Line.between(joint, joint + 11.0 * cmath.rect(1.0, angle), strokes.DIRECTION)
-             for angle in (start, start + turn)]  # fmt: skip
+             for angle in (start, start + turn)]
     arc = angle_dimension(on_page(joint), 8.0, start, start + turn, words)[:2]
     plate.put("answers", *lines, *arc, id="least-gamma")
     plate.name(words, joint + 8.0 * cmath.rect(1.0, start + turn / 2), "label-least-gamma")
@@ -405,14 +405,14 @@ def _measured_lines(shown: Shown, page: FigurePage) -> list[RichText]:
     kinds: dict[str, tuple[str, float, str]] = {
         "stroke": ("H", 1.0 / metres, f" {unit}"), "swing": ("ψ", math.degrees(1.0), "°"),
         "theta_lag": ("θ", math.degrees(1.0), "°"), "K": ("K", 1.0, ""),
-    }  # fmt: skip
+    }
     said: list[RichText] = []
     if shown.limits:
         values = spaced(",  ", (
             sign(letter) + f" = {number(shown.measured[kind] * per, 7)}{after}"
             for kind, (letter, per, after) in kinds.items()
             if kind in shown.measured and (kind != "K" or "K" in shown.marks)
-        ))  # fmt: skip
+        ))
         said += page.said("positions of", pair=Neutral(shown.output), values=Neutral(values))
     for symbol, why in shown.without.items():
         lines = page.said("no limits", output=page.letters.vector(symbol), reason=why)

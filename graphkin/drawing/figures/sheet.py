@@ -80,7 +80,7 @@ def sheet_page(page: FigurePage, report: Report) -> Drawing:
     writing, rest = written_on(plan, GIVEN[0])
     if rest and plan.equations:
         usual, panels = (plan, *with_less_mechanism(plan, sheet)), zip(
-            POLYGONS, (plan.velocity, plan.acceleration), strict=True)  # fmt: skip
+            POLYGONS, (plan.velocity, plan.acceleration), strict=True)
         high = [extent(sheet, diagram, box.grown(-3.0)).height + 2 * NAMES for diagram, box in panels]
         closer = (*usual, *(less for each in usual for less in with_less_polygons(each, high)))
         for each, size in islice(product(closer, GIVEN), 1, None):
@@ -102,7 +102,7 @@ def sheet_page(page: FigurePage, report: Report) -> Drawing:
         _mechanism(page, plan.mechanism), velocity, *writing,
         _below(plan.page, fitted(term("step number", page.language, number="(9)"), 2.4, 0.7 * plan.page.width)),
         title_block(page, [row.compared for row in rows], plan.block),
-    ]  # fmt: skip
+    ]
     further = continuation(page, rest, plan.page)
     for kind in ("plan", "loops") if sheet.scene.question.sheet.loops else ("plan",):
         figure = figure_kinds()[kind].draw(replace(page, name=kind))
@@ -118,7 +118,7 @@ def _drawn_page(page: FigurePage, width: float, height: float, pieces: Sequence[
     """A page of the sheet; ``number`` follows its title."""
     title = figure_title(page.sheet, "sheet", page.language) + number
     return Drawing(width, height, layer_groups(joined(pieces)), title, "", languages(page.language)[0],
-                   facts(page.sheet, "sheet"))  # fmt: skip
+                   facts(page.sheet, "sheet"))
 
 
 def _writing(
@@ -169,7 +169,7 @@ def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Dra
     to = complex(plan.page.left - MARGIN, plan.page.top - MARGIN)
     height = max(plan.height, figure.height + to.imag)
     return replace(figure, width=plan.width, height=height, children=moved(figure.children, to),
-                   title=f"{figure.title} ({number})", metadata=facts(sheet, "sheet"), further=())  # fmt: skip
+                   title=f"{figure.title} ({number})", metadata=facts(sheet, "sheet"), further=())
 
 
 def _below(frame: Box, words: tuple[Run, ...], anchor: str = "start") -> Piece:
@@ -278,7 +278,7 @@ def continuation(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing
         made.append(replace(
             _drawn_page(page, *size, (heading(page, frame), corner, *pieces), f" ({number})"),
             desc=_held(page, before, rest),
-        ))  # fmt: skip
+        ))
         if len(rest) == len(before):  # nothing is so large that a page does not hold it
             raise AssertionError("a page holds nothing of what is left")
     return tuple(made)
@@ -290,7 +290,7 @@ def _held(page: FigurePage, before: Remainder, after: Remainder) -> str:
         "equations": len(before.equations) - len(after.equations), "given": len(before.given) - len(after.given),
         "readings": len(before.readings) - len(after.readings),
         FIGURE_WORDS["acceleration"]: len(before.coriolis) - len(after.coriolis),
-    }  # fmt: skip
+    }
     shown = [page.term(kind) for kind, count in kinds.items() if count]
     return page.punctuation("symbol comma").join(shown)
 

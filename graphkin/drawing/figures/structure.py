@@ -55,7 +55,7 @@ def structure_figure(page: FigurePage, others: Sequence[Structure] = ()) -> Draw
     return page.drawing(
         page.term("structure"), body, None, title="structure",
         said=spaced(". ", (text for text, _ in counted)),
-    )  # fmt: skip
+    )
 
 
 def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
@@ -73,7 +73,7 @@ def _diagram(sheet: Sheet, letters: Notation, spoken: str, panel: Box) -> Piece:
     labels += badges(here, spoken)
     dashed = Piece({"mechanism": replacing_links(here, JOINT_RADIUS)}, tuple(labels))
     stood_for = {f"label-guide-{b.slide.b}-{b.slide.guide.name}" for b in here.sliders
-                 if b.slide.key in here.replaced_pairs}  # fmt: skip
+                 if b.slide.key in here.replaced_pairs}
     piece = replace(piece, labels=tuple(label for label in piece.labels if label.text.id not in stood_for))
     # a profile covers what lies under it
     whole = joined((dashed, piece) if sheet.scene.instead_of is None else (piece, dashed))
@@ -141,7 +141,7 @@ def _taken_apart(page: FigurePage, structure: Structure) -> Block:
         tag = f"{'-'.join(keys).replace('/', '-')}-{number}"
         part = panel(*PART, partial(_group, page.sheet, elements, page.letters, tag))
         named = [element for element in elements if not isinstance(element, Driven)
-                 or element.link in page.sheet.scene.by_name]  # without blocks that replace a pair  # fmt: skip
+                 or element.link in page.sheet.scene.by_name]  # without blocks that replace a pair
         lines = (_told(page.sheet, element, each) for each in languages(page.language) for element in named)
         about = prose(lines, PART[0] - 2.0, 2.6)
         parts.append(column(framed(part), about, gap=1.0))
@@ -156,7 +156,7 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
             "structure group", links=element.named, order=class_of(element.order),
             kind="" if isinstance(element, LargerGroup) else f" {element.kind}",
             inner=listed([p.key for p in inner]), outer=listed([p.key for p in outer]),
-        )  # fmt: skip
+        )
         return say(group, language)
     driver = element.driver
     if not driver.given:

@@ -87,7 +87,7 @@ def _page(page: FigurePage, plan: TrainPlan, steps: Steps) -> Drawing:
         page.at_drivers(page.term(name)), body, spaced(",  ", written_scales), title=name,
         said=page.said("plan described")[0],
         metadata={"scales": {key: float(f"{value:.12g}") for key, value in scales.items()}},
-    )  # fmt: skip
+    )
 
 
 def _rates(plan: TrainPlan) -> tuple[str, str]:
@@ -211,13 +211,13 @@ def _table(page: FigurePage, plan: TrainPlan) -> Block:
             turning = f"{number(line.value, 5)} {page.term('plan given')}"
         rows.append((line.link, read, turning))
     rows += [(key, on_paper(step.mm), along.beside(number(step.value / along.si, 5)))
-             for key, step in plan.travels.items()]  # fmt: skip
+             for key, step in plan.travels.items()]
     rates = rate(kind, "") + f", {unit}"
     heads: list[list[Words]] = [[word("plan link", each), "mm", rates] for each in languages(page.language)]
     return table(heads, rows, (0.2 * TABLE, 0.25 * TABLE, 0.55 * TABLE))
 
 
-# -- a train seen from the side ----------------------------------------------------------------------------------------
+# a train seen from the side
 
 TOOTH, RIM, APART = 5.0, 6.0, 0.45
 STEP = 13.0  # mm from one plane to the next, less where there are many
@@ -230,7 +230,7 @@ def _planes(line: CentreLine) -> tuple[Mapping[str, int], Mapping[str, int], int
     for mesh in line.meshes:
         pitch = line.spot(mesh.name).height
         rims_here = [(wheel, axis, round(abs(pitch - line.spot(axis).height), 12))
-               for wheel, axis in zip(mesh.bodies, mesh.axes, strict=True) if axis]  # fmt: skip
+               for wheel, axis in zip(mesh.bodies, mesh.axes, strict=True) if axis]
         of[mesh.name] = next((rims[rim] for rim in rims_here if rim in rims), len(set(of.values())))
         rims.update(dict.fromkeys(rims_here, of[mesh.name]))
     first = len(set(of.values()))
@@ -316,7 +316,7 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
 def _shafts(
     plate: Plate, scene: Mechanism, line: CentreLine, on_axis: Mapping[tuple[str, str], set[int]],
     at: Callable[[int, float], complex], heights: Mapping[str, float],
-) -> None:  # fmt: skip
+) -> None:
     """The shafts that join wheels of one link about one axis in several planes; planets on their pins."""
 
     def shaft(link: str, axis: str, first: int, last: int) -> None:

@@ -55,7 +55,7 @@ _TEXTURES = (
     None, Stroke(0.2, (1000.0, 1.0)), Stroke(0.2, (2.6, 1.6)), Stroke(0.2, (0.8, 0.8)),
     Stroke(0.2, (5.0, 1.2, 0.8, 1.2)), Stroke(0.2, (0.8, 3.0)), Stroke(0.2, (2.6, 0.8, 0.8, 0.8, 0.8, 0.8)),
     Stroke(0.2, (5.0, 5.0)),
-)  # fmt: skip
+)
 
 
 def texture(index: int) -> Stroke | None:

@@ -64,7 +64,7 @@ def arrow(
 def vector_group(
     id: str, step: int | None, tail: complex, tip: complex, kind: ArrowKind = RESULTANT, colour: str = strokes.BLACK,
     title: str = "", classes: tuple[str, ...] = (),
-) -> Group:  # fmt: skip
+) -> Group:
     """The group of one vector: its line first, then its arrowhead.
 
     Parameters
@@ -178,7 +178,7 @@ def weld(at: complex, first: complex, second: complex, colour: str) -> Polygon:
 def sense_arc(
     at: complex, radius: float, middle: float, sense: int, span: float = math.radians(70), colour: str = strokes.BLACK,
     heads: int = 1,
-) -> tuple[Shape, ...]:  # fmt: skip
+) -> tuple[Shape, ...]:
     """Arc with an arrowhead: the sense of an angular velocity (one head) or acceleration (two heads) about a point.
 
     Parameters

@@ -289,7 +289,7 @@ def _angles(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts 
                 (Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION),
                  *angle_dimension(at, radius, start, start + turn, runs, share))
                 for radius, share in product(radii, SHARES) if radius <= WIDEST_ROUND or abs(turn) <= math.pi
-            )  # fmt: skip
+            )
             found = found or room.take(choices, 1, over=True, ends_on_line=True, crossing=crossing)
         if found is not None:
             yield found
@@ -389,7 +389,7 @@ def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:
                 Line(corner, corner + further * level, strokes.DIMENSION),
                 Line(corner, corner + further * on_page(way), strokes.DIMENSION),
                 *angle_dimension(corner, radius, start, start + math.radians(angle), runs),
-            ))  # fmt: skip
+            ))
     return room.take(choices, 2, ends_on_line=True)
 
 
@@ -442,7 +442,7 @@ def _guide_angle(room: DimensionClearance, at: complex, one: complex, other: com
 def _apart(
     room: DimensionClearance, ones: Sequence[complex], others: Sequence[complex], along: complex, value: float,
     runs: tuple[Run, ...] = (), also: Parts = (),
-) -> Parts | None:  # fmt: skip
+) -> Parts | None:
     """The distance of two places in a direction, y up, each measured from the nearest of some spots on its level; with
     its further strokes."""
     spots, along = [[(on_page(z), 0.0) for z in each] for each in (ones, others)], on_page(along)
@@ -460,7 +460,7 @@ def _apart(
 def _on_line(
     spots: Sequence[Sequence[Spot]], levels: Sequence[float], line: float, along: complex, aside: complex,
     values: Sequence[tuple[Run, ...]], share: float = 0.5, also: Parts = (),
-) -> Parts | None:  # fmt: skip
+) -> Parts | None:
     """Levels dimensioned in order on one line, each from its spot nearest to the line, the numbers at a share of it;
     None where the line runs through a spot.
 

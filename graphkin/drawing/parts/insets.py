@@ -65,7 +65,7 @@ MOST_DETAILS, MOST_CROWDS = 3, 3
 def polygon_with_insets(
     sheet: Sheet, diagram: DiagramName, letters: Notation, language: str, panel: Box, origin: complex,
     strip: Box | None = None,
-) -> tuple[Piece, list[CoriolisTerm]]:  # fmt: skip
+) -> tuple[Piece, list[CoriolisTerm]]:
     """A polygon with names and insets in their places.
 
     Parameters
@@ -211,7 +211,7 @@ def _inside(box: Box, caption: float) -> Box:
 def _inset(
     box: Box, layer: str, parts: Sequence[Primitive], words: Sequence[Words], size: float, id: str,
     classes: tuple[str, ...], up: float = 1.6, step: int | None = None,
-) -> Piece:  # fmt: skip
+) -> Piece:
     """Parts in the frame of an inset, with the first words that fit in its middle, ``up`` mm above its lower edge, else
     the last."""
     wide = box.width - 1.6
@@ -281,7 +281,7 @@ def _mechanism_detail(
     labels = tuple(
         thing._replace(id=f"label-detail-{thing.id.removeprefix('label-')}", step=None, since=None)
         if isinstance(thing, Text) else thing for thing in named.layers.get("labels", ())
-    )  # fmt: skip
+    )
     return joined((Piece({"labels": labels}), frame))
 
 

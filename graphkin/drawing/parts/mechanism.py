@@ -216,7 +216,7 @@ def link_names(here: MechanismOnPaper, panel: Box | None = None) -> Piece:
 def _number(here: MechanismOnPaper, link: str, mark: Mark, *toward: float) -> Label:
     """The number of a link at a part of it."""
     return Label.of(plain(link, bold=True), mapped(mark, on_page), f"label-link-{link}", colour=here.colour(link),
-                    rank=1, toward=toward, classes=("link-number",), since=here.since(link))  # fmt: skip
+                    rank=1, toward=toward, classes=("link-number",), since=here.since(link))
 
 
 def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
@@ -243,7 +243,7 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
     written = {
         name for step in here.sheet.equations for side in step.sides for term in side
         if term.direction and len(term.direction.names) == 1 for name in term.direction.names
-    }  # fmt: skip
+    }
     written |= {guide.name for guide in here.scene.frame.guides.values()}  # the given data name them
     for b in here.sliders:
         name = b.slide.guide.name or f"x{b.slide.b}"
@@ -252,7 +252,7 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
             # a block that stands for a cam slides along the face of its follower
             face = next((touch.point for touch in here.touching.cams if touch.cam.flat
-                         and touch.cam.follower == b.slide.b and b.slide.key in here.replaced_pairs), None)  # fmt: skip
+                         and touch.cam.follower == b.slide.b and b.slide.key in here.replaced_pairs), None)
             start, edge = (b.at, edge) if face is None else (face, touching.FLAT)
             letter = rich(here.letters.guide(name, here.ground), 3.0)
             ends = on_page(start), on_page(start + edge * b.along)
@@ -388,7 +388,7 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
                 if value:
                     arc("mechanism", f"driver-{link}{tail}", kind, link, driver.relative_to, value, here.since(link))
     drawn = [step for step in here.sheet.steps
-             if isinstance(step, RateStep) and (step.finds_rate or step.reason == "given on plan")]  # fmt: skip
+             if isinstance(step, RateStep) and (step.finds_rate or step.reason == "given on plan")]
     found = {(step.kind, step.link): step.number for step in drawn}
     named = here.scene.whole.by_name  # not of bars that stand for cams
     for kind, rates in here.sheet.rates.items():
@@ -458,12 +458,12 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
         Group((Line.between(s.a, s.b, strokes.CONSTRUCTION),), classes=("tangent",), step=step.number)
         for step in here.steps if isinstance(step, PlaceStep) and step.reason == "tangent"
         for s in step.strokes if isinstance(s, Bar)
-    ]  # fmt: skip
+    ]
     over: list[Primitive] = []
     arcs = [
         (step, stroke) for step in here.steps
         for stroke in step.strokes if isinstance(stroke, CompassArc) and stroke.radius > 1e-9
-    ]  # fmt: skip
+    ]
     bars: dict[complex, set[complex]] = {}
     for _, arc in arcs:
         bars.setdefault(same_place(arc.at), set()).add(unit(arc.centre - arc.at))
@@ -498,7 +498,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
             lines = tuple(
                 Line.between(s.a, s.b, strokes.DIRECTION)
                 for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
-            )  # fmt: skip
+            )
             over.append(Group(lines, id=f"special-{step.point}", classes=("special",), step=step.number))
         for curve in (s for s in step.strokes if isinstance(s, Curve)):
             curves += 1

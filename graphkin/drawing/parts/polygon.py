@@ -262,7 +262,7 @@ def side_by_side(vectors: Iterable[Vector]) -> Mapping[Symbol, complex]:
         taken = {
             lane for other, long, lane in lanes
             if (_covers(vector, length, other) if length >= long else _covers(other, long, vector))
-        }  # fmt: skip
+        }
         lane = next(n for k in range(len(lanes) + 1) for n in ((k, -k) if k else (0,)) if n not in taken)
         lanes.append((vector, length, lane))
         if lane:
@@ -484,7 +484,7 @@ def _vectors(here: PolygonOnPage) -> Iterator[Group]:
         group = vector_group(
             vector.symbol.id, step, tail, tip, RESULTANT if vector.role == "resultant" else COMPONENT,
             here.colours[vector.symbol], spoken_vector(vector.symbol, here.language), (vector.role,),
-        )  # fmt: skip
+        )
         ends = ((here.at(vector.tail), tail), (here.at(vector.tip), tip)) if vector.symbol in here.shifts else ()
         ties = tuple(Line(true, shown, strokes.CONSTRUCTION) for true, shown in ends)
         yield group._replace(children=(*group.children, *ties))
@@ -501,7 +501,7 @@ def _name(here: PolygonOnPage, group: Sequence[Vector], letters: Mapping[complex
     length = abs(group[0].span)
     short = length < LEAST_DRAWN
     vectors = sorted((v for v in group if not short or v.role != "resultant" or us or abs(v.tip) < SAME),
-                     key=lambda v: here.vectors[v.symbol][0])  # fmt: skip
+                     key=lambda v: here.vectors[v.symbol][0])
     if not vectors:
         return None
     first = vectors[0]
@@ -523,7 +523,7 @@ def _name(here: PolygonOnPage, group: Sequence[Vector], letters: Mapping[complex
         behind(key.runs, runs, BESIDE) if numbered else runs, here.drawn(first), id, colour=colour,
         rank=2 if resultants and not us else 1, step=step if numbered else None, since=step, key=key,
         between=spaced(sign("→"), ends) if all(ends) else "",
-    )  # fmt: skip
+    )
 
 
 def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:

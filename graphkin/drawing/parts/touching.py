@@ -148,7 +148,7 @@ def profiles(here: MechanismOnPaper) -> Iterator[Group]:
             yield Group(end, id=f"follower-{one.cam.follower}", classes=("cam",), since=here.stands)
         far_side = one.contact + one.roller * one.normal
         thin = ((one.contact - AT_CAM * one.normal, far_side + AT_CAM * one.normal),
-                (one.point - AT_CAM * across, one.point + AT_CAM * across))  # fmt: skip
+                (one.point - AT_CAM * across, one.point + AT_CAM * across))
         lines = tuple(Line.between(a, b, strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
         yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",), since=here.stands)
 
@@ -228,7 +228,7 @@ def badges(here: MechanismOnPaper, spoken: str) -> list[Label]:
         *(Label.of(letter, on_page(z), f"badge-{name}", colour=strokes.GREY, rank=1) for name, z in places),
         *(Label.of(words, on_page(cam.point), f"badge-roller-{cam.cam.follower}", colour=strokes.GREY, rank=1)
           for cam in cams if cam.roller),
-    ]  # fmt: skip
+    ]
 
 
 def contact_marks(here: MechanismOnPaper) -> Piece:

@@ -145,7 +145,7 @@ class _Choice(NamedTuple):
         return self._replace(
             extensions=lines[:extensions], lines=[*_ends(lines[extensions:]), *chords],
             arcs=[Box.around(course).grown(0.5) for course in courses],
-        )  # fmt: skip
+        )
 
 
 class DimensionClearance:
@@ -164,7 +164,7 @@ class DimensionClearance:
     def take(
         self, choices: Iterable[Parts], extensions: int = 2, *, over: bool = False, ends_on_line: bool = False,
         crossing: bool = False, over_lines: bool = False,
-    ) -> Parts | None:  # fmt: skip
+    ) -> Parts | None:
         """The first clear dimension of some, added to the drawn strokes; None where none is clear.
 
         Its first lines are extension lines: they begin beyond the symbols around their points, and run over other lines
@@ -212,7 +212,7 @@ class DimensionClearance:
         of_heads, heads = _owned([choice.heads for choice in choices], boxes_of)
         taken = np.hstack((self.areas, self.heads))
         own, boxes = (of_numbers, numbers) if on_lines else (
-            np.concatenate((of_numbers, of_heads)), np.hstack((numbers, heads)))  # fmt: skip
+            np.concatenate((of_numbers, of_heads)), np.hstack((numbers, heads)))
         reach = boxes[1] + SPACE
         bad[own[stand_on(boxes[0], reach, taken).any(axis=1)]] = True
         bad[own[meets(self.segments, boxes[0], reach)[1]]] = True

@@ -59,7 +59,7 @@ def _grid(shares: Sequence[float], gaps: Sequence[float], ways: Sequence[int]) -
 _ROUND = (
     _grid((0.5,), [gap for gap in NEAR if gap >= LEADER_LEAST], range(0, 48, 2)),
     _grid((0.5,), FAR[::2], range(0, 48, 4)), _grid((0.5,), FAR[1::2], range(2, 48, 4)),
-)  # fmt: skip
+)
 _TIGHT = _grid((0.5,), [gap for gap in NEAR if gap < LEADER_LEAST], range(0, 48, 2))
 # Where names of points and of vectors may stand, and where more places with leaders are looked for.
 AROUND_POINT = np.hstack((_TIGHT, *_ROUND))
@@ -95,7 +95,7 @@ class Label:
         cls, runs: tuple[Run, ...], mark: Mark, id: str = "", *, colour: str = "#000000", rank: int = 0,
         toward: tuple[float, ...] = (), classes: tuple[str, ...] = (), step: int | None = None,
         since: int | None = None, key: Text | None = None, between: Words = "",
-    ) -> Label:  # fmt: skip
+    ) -> Label:
         """A label of some runs in the class "label" and further ones; ``id``, ``step`` and ``since`` are the text's."""
         text = Text(0j, runs, "start", colour, id, ("label", *classes), step, since)
         return cls(text, mark, toward, rank, key, between)

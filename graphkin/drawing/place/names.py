@@ -54,7 +54,7 @@ def without(piece: Piece, ids: Collection[str]) -> Piece:
     kept = tuple(
         one for one, after in zip_longest(written, written[1:])
         if not any(isinstance(text, Text) and text.id in ids for text in (one, isinstance(one, Line) and after))
-    )  # fmt: skip
+    )
     return replace(piece, layers={**piece.layers, "labels": kept}) if len(kept) < len(written) else piece
 
 
@@ -89,7 +89,7 @@ def _listed(
     entries = [
         _entry(label.text, label.key, label.between if label.text.id in told else "")
         for label in placement.labels if label.text.id in keyed | told
-    ]  # fmt: skip
+    ]
     boxes = tuple(one.box for one in placed)
     leaders = tuple((one.leader.start, one.leader.end) for one in placed if one.leader is not None)
     names = _list(entries, panel, obstacles + Obstacles(solid=leaders, areas=boxes, writing=boxes))
@@ -138,4 +138,4 @@ def _in_columns(
         entries[i]._replace(at=complex(room.left + left, room.top + tops[k] - boxes[i].top))
         for room in free_boxes(1, size, panel, around, clear)
         for left, column in zip(lefts, columns, strict=True) for k, i in enumerate(column)
-    )  # fmt: skip
+    )

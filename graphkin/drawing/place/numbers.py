@@ -66,7 +66,7 @@ def step_numbers(
     return tuple(
         text._replace(at=complex(row[i]) - box.centre)
         for text, box, row, i in zip(texts, boxes, places, found, strict=True) if i is not None
-    )  # fmt: skip
+    )
 
 
 def _by_name(name: Box | None, half: complex) -> tuple[complex, ...]:

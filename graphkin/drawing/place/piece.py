@@ -32,7 +32,7 @@ from graphkin.drawing.text import text_box
 # In the order of drawing.
 LAYERS = (
     "background", "construction", "mechanism", "velocity", "acceleration", "forces", "centres", "answers", "labels",
-)  # fmt: skip
+)
 
 
 @dataclass(frozen=True)

@@ -278,7 +278,7 @@ class Placement:
         """Put a label in its least harmful place, and give up labels in its way that may be given up."""
         places, table = self.panel.everywhere(i), self.panel.places
         standing, everywhere = (outlined(forms, (0.0, 0.0)) for forms in (
-            table.forms.take(self.stands, axis=2), places.forms))  # fmt: skip
+            table.forms.take(self.stands, axis=2), places.forms))
         met = intersections(standing, everywhere)
         worth = np.array([min(FORBIDDEN, lacking) for lacking in self.lacking])
         k = int(np.argmin(places.costs + worth @ met))

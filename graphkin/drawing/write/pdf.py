@@ -27,7 +27,7 @@ CHINESE = (
     "AR PL UMing CN", "Noto Serif CJK JP", "Noto Sans CJK SC", "Source Han Sans SC", "Noto Sans SC", "PingFang SC",
     "Microsoft YaHei", "SimHei", "WenQuanYi Zen Hei", "WenQuanYi Micro Hei", "Noto Sans CJK JP", "Droid Sans Fallback",
     "Arial Unicode MS",
-)  # fmt: skip
+)
 SIGNS = ("DejaVu Sans Mono", "New Computer Modern")  # come with Typst: for signs that no other face has
 
 SvgPage: TypeAlias = tuple[float, float, str, str, bool]
@@ -108,7 +108,7 @@ def _typeset(pages: Sequence[SvgPage], title: str, dpi: float | None, **options:
         return mm if dpi is None else math.ceil(mm * dpi / MM_PER_INCH - 1e-6) / dpi * MM_PER_INCH
 
     given = [(width, height, in_faces(svg, names), seen, (side(width), side(height)))
-             for width, height, svg, seen, _ in pages]  # fmt: skip
+             for width, height, svg, seen, _ in pages]
     inputs = {"given": json.dumps({"title": title, "pages": given}, ensure_ascii=False, allow_nan=False)}
     made = typst.compile(_TEMPLATE, font_paths=fonts, sys_inputs=inputs, **options)
     assert isinstance(made, bytes)

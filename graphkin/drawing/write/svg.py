@@ -47,7 +47,7 @@ HIT = Stroke(3.0)  # mm: the breadth of a finger
 _NAMESPACES = {
     "xmlns": "http://www.w3.org/2000/svg", "xmlns:ev": "http://www.w3.org/2001/xml-events",
     "xmlns:inkscape": "http://www.inkscape.org/namespaces/inkscape", "xmlns:xlink": "http://www.w3.org/1999/xlink",
-}  # fmt: skip
+}
 
 
 @lru_cache(maxsize=8192)
@@ -127,7 +127,7 @@ def _head(drawing: Page) -> dict[str, str]:
     return {
         "width": f"{width}mm", "height": f"{height}mm", "viewBox": f"0 0 {width} {height}", "role": "img",
         "lang": _quoted(drawing.lang), "stroke-linejoin": "round", "text-rendering": "geometricPrecision",
-    }  # fmt: skip
+    }
 
 
 class _Ink:

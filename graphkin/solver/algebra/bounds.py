@@ -45,7 +45,7 @@ Errors = ErrorBound[Array]
 def error_bounds(
     structure: Structure, poses: Mapping[str, Pose], drive: Drive, slack: Array, refined: Array,
     value_error: Array | None = None,
-) -> dict[str, Errors]:  # fmt: skip
+) -> dict[str, Errors]:
     """Bounds of the errors of each moving link: the largest of any point of it, coincident points under sliding links
     too, and of its turning; fields of shape (n,), infinite where they are unknown.
 
@@ -363,7 +363,7 @@ def _row_errors(
     spins = np.ones_like(lean), rates[0], rates[1] + rates[0] ** 2
     own = np.abs(layout.places) * (lean[:, layout.joints] + FEW * unit[:, None]) + 1.5 * places
     place_errors = [(spin[:, layout.joints] * own + unit[:, None] * np.abs(place)).sum(axis=1)
-           for spin, place in zip(spins, parts.place, strict=True)]  # fmt: skip
+           for spin, place in zip(spins, parts.place, strict=True)]
     axis = [np.abs(layout.along) * spin[:, layout.axis] for spin in spins]
     bent = lean[:, layout.axis] + 1.5 * directed + FEW * unit
     moved = product(axis, [x[:, layout.joint] for x in place_errors])

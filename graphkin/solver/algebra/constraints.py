@@ -171,12 +171,12 @@ class Layout:
         self.places = np.array([
             [links[p.a].points[p.point] if p.turns else 0j for p in pairs],
             [links[p.b].points[p.point] if p.turns else p.guide.through for p in pairs],
-        ], dtype=complex)  # fmt: skip
+        ], dtype=complex)
         self.line_pairs = [pair for _, pair, _ in lines]
         self.joint = np.array([where[pair.key, pair.a, pair.b] for pair in self.line_pairs], dtype=int)
         self.axis = np.array([frame if pair.turns else self.link[pair.b] for pair in self.line_pairs], dtype=int)
         self.along = np.array([part if pair.turns else part * pair.guide.direction.conjugate()
-                               for _, pair, part in lines], dtype=complex)  # fmt: skip
+                               for _, pair, part in lines], dtype=complex)
         a, b = self.joints[:, self.joint]
         own = [3 * a, 3 * a + 1, 3 * b, 3 * b + 1, 3 * a + 2, 3 * b + 2, 3 * self.axis + 2]
         wide, rows = 3 * self.members, np.array([row for row, *_ in lines], dtype=int)
@@ -357,7 +357,7 @@ class Constraints:
         found: list[Array] = []
         # what turns with the first link, with the second, with the axis
         legs = [np.concatenate((-arm[:, :1], arm[:, 1:], gap[:, None]), axis=1)[:, :, layout.joint] / layout.size
-                for arm, gap in zip(parts.arm, parts.gap, strict=True)]  # fmt: skip
+                for arm, gap in zip(parts.arm, parts.gap, strict=True)]
         turns = product([axis[:, None] for axis in parts.axis], legs)
         for axis, turn in zip(parts.axis, turns, strict=True):
             matrix = np.zeros((len(axis), *layout.constant.shape))

@@ -84,7 +84,7 @@ def _fmax(a: float, b: float) -> float:
 
 FLOATS: Mapping[str, Callable[..., float]] = {
     "sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "atan2": math.atan2,
-}  # fmt: skip
+}
 """What formulas of one position call."""
 OPERATIONS: Mapping[str, Callable[..., Any]] = {
     **FLOATS,
@@ -101,7 +101,7 @@ OPERATIONS: Mapping[str, Callable[..., Any]] = {
 """What formulas of one position call that are computed one by one."""
 DECIMALS: Mapping[str, Callable[..., Any]] = {
     **OPERATIONS, "root": lambda x: abs(x).sqrt(), "fmin": min, "fmax": max, "const": Decimal,
-}  # fmt: skip
+}
 """What formulas in 50 digits call."""
 
 
@@ -444,7 +444,7 @@ class Code:
     def values(
         self, given: Callable[[Name], Any], known: dict[int, Any],
         operations: Mapping[str, Callable[..., Any]] = OPERATIONS,
-    ) -> list[Any]:  # fmt: skip
+    ) -> list[Any]:
         """The asked formulas at one position, without written code: in plain floats, or in the numbers of the
         operations.
 

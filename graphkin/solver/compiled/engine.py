@@ -300,7 +300,7 @@ class _Run:
             sharp = sharp * np.abs(groups[i].sine)  # type: ignore[union-attr]
         slack = np.concatenate(self.slack, axis=1) if self.slack else np.zeros((self.n, 0))
         state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), sharp > CLEAR,
-                      slack, np.where(exact, TINY, SINGULAR), self._found())  # fmt: skip
+                      slack, np.where(exact, TINY, SINGULAR), self._found())
         repeated = exact
         if names and explicit and self.extended and self.rates and upto == len(self.structure.elements):
             repeated = exact | self._in_doubt(state)
@@ -452,7 +452,7 @@ def closes(structure: Structure, i: int, modes: Mapping[int, Array], drive: Driv
         told = [discriminant.with_doubt(k) for k in range(len(drive))]
     found = np.array([_sign(*one) for one in told], dtype=int)
     return found, np.array([not sign and ROUNDING < doubt < UNKNOWN
-                            for sign, (_, doubt) in zip(found, told, strict=True)], dtype=bool)  # fmt: skip
+                            for sign, (_, doubt) in zip(found, told, strict=True)], dtype=bool)
 
 
 def _sign(value: Decimal, doubt: Decimal) -> int:

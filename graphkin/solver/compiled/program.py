@@ -204,7 +204,7 @@ class Program:
             frame(one, self.poses), frame(one, first), frame(dyad.inner, first),
             frame(two, self.poses), frame(two, second), frame(dyad.inner, second),
             1.0 if two.a in second else -1.0, self.graph.param(("size",)),
-        )  # fmt: skip
+        )
 
     # code
 

@@ -103,7 +103,7 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
     state = own_position(there, choose_modes(there))
     for i, group in state.groups.items():
         dead = group.condition[0] * SINGULAR > 1 if isinstance(group, GroupSolved) else (
-            abs(group.sine[0]) < state.singular[0])  # fmt: skip
+            abs(group.sine[0]) < state.singular[0])
         if dead:
             raise Unsolvable("dead point", Problem(there.elements[i].named, "they start in a dead point",
                                                    "let what rolls start a little beside it"))
@@ -118,7 +118,7 @@ def _choose_sign(
     scene = structure.scene
     both = dict(known), dict(known)
     states = [own_position(structure, {**modes, i: np.array(sign)}, i + 1, numbers)
-              for sign, numbers in zip((1.0, -1.0), both, strict=True)]  # fmt: skip
+              for sign, numbers in zip((1.0, -1.0), both, strict=True)]
     solved = states[0].groups[i]
     assert isinstance(solved, DyadSolution)
     links = dyad.links or dyad.members  # what stands for two contacts of one link has no link of the file
@@ -295,7 +295,7 @@ def _distinct(structure: Structure, group: LargerGroup, solved: GroupSolved) -> 
     points = np.array([
         (pose.z + pose.u * z)[rows] for pose, link in ((solved.poses[k], structure.links[k]) for k in names)
         for z in link.points.values()
-    ])  # fmt: skip
+    ])
     kept: list[int] = []
     for k in sorted(range(len(rows)), key=lambda k: added_up(float(t[rows[k]]) for t in travels), reverse=True):
         if not any(points.size and np.abs(points[:, k] - points[:, other]).max() < SAME * size for other in kept):

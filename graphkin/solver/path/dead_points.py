@@ -90,7 +90,7 @@ def _of_group(
         tried = known.with_sign(i, 1.0)
         for stretch in stretches(tried, i, part.low, part.high):
             ends = [(tried.exact_zero(i, end), side) for end, side, ended in
-                    zip((stretch.low, stretch.high), (1, -1), stretch.ends, strict=True) if ended]  # fmt: skip
+                    zip((stretch.low, stretch.high), (1, -1), stretch.ends, strict=True) if ended]
             touched = (touches[0] for t in stretch.touches if (touches := tried.exact_touches(i, t, BESIDE)))
             yield from (DeadPoint(value, i, chosen, (-1, 1)) for value in touched)
             for value, side in ends:

@@ -137,7 +137,7 @@ class Path:
         drivers = self.structure.scene.drivers
         with working():
             starts, ends = ([meant_value(d, x) for d, x in zip(drivers, values.tolist(), strict=True)]
-                            for values in (self.start, self.end))  # fmt: skip
+                            for values in (self.start, self.end))
             return [(start, end - start) for start, end in zip(starts, ends, strict=True)]
 
     def _meant(self, t: Decimal) -> list[Decimal]:
@@ -273,13 +273,13 @@ def stretches(path: Path, i: int, low: float, high: float) -> list[Stretch]:
     earlier ones close."""
 
     return closed(lambda t: path.discriminant(i, t), low, high,
-                  lambda about: path.exact_touches(i, about, BESIDE * (high - low)), path.flips)  # fmt: skip
+                  lambda about: path.exact_touches(i, about, BESIDE * (high - low)), path.flips)
 
 
 def closed(
     gap: Callable[[Array], Array], low: float, high: float,
     touching: Callable[[float], Sequence[Decimal] | None] = lambda _: None, seams: Collection[float] | Array = (),
-) -> list[Stretch]:  # fmt: skip
+) -> list[Stretch]:
     """The stretches between two places in which a discriminant is not negative.
 
     It is represented over an angle whose cosine runs from one place to the other: as a function of that angle it is
@@ -303,7 +303,7 @@ def closed(
     known = known[np.diff(known, prepend=-np.inf) > OFF_FLIP]  # several groups may pass one together
     inner = angles_between(known, low, high)
     pieces = resolve(lambda angle: (gap(place(angle))[:, None], np.zeros((len(angle), 1))), 0.0, math.pi, floor=1.0,
-                     seams=inner)  # fmt: skip
+                     seams=inner)
     roots, rests = map(place, pieces.near_zero(0, DOUBTFUL))
     touches, below = list[float](), list[tuple[float, float]]()
     if len(known):
@@ -339,7 +339,7 @@ def closed(
     changes = np.flatnonzero(closing[1:] != closing[:-1]) + 1
     ends = [float(cuts[k]) if any(cuts[k] in dip for dip in below) else
             _polished(gap, float(cuts[k]), middles[k - 1 : k + 1][:: 1 if closing[k - 1] else -1], POLISHED * wide)
-            for k in changes]  # fmt: skip
+            for k in changes]
     edges = [*([low] if closing[0] else []), *ends, *([high] if closing[-1] else [])]
     return [
         Stretch(a, b, (a in ends, b in ends), tuple(sorted(t for t in touches if a < t < b)))
@@ -375,7 +375,7 @@ def assembled(
         tried = path.with_sign(i, sign)
         # only of two lines it depends on the sign where they cross
         found = found if found and not (isinstance(group, Dyad) and group.is_two_lines) else (
-            stretches(tried, i, low, high))  # fmt: skip
+            stretches(tried, i, low, high))
         for stretch in found:
             if behind:
                 yield from assembled(tried, behind, stretch.low, stretch.high, signs)

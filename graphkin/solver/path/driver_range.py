@@ -524,7 +524,7 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
     return replace(
         some, values=kept["", "values"], status=kept["", "status"], reasons=tuple(reasons), poses=poses,
         accuracy=Accuracy(some.accuracy.structure, poses, drive, *known),
-    )  # fmt: skip
+    )
 
 
 def _columns(motion: Motion) -> Iterator[tuple[tuple[str, str], Array]]:
@@ -534,7 +534,7 @@ def _columns(motion: Motion) -> Iterator[tuple[tuple[str, str], Array]]:
     known, drive = motion.accuracy, motion.accuracy.drive
     own = {"values": motion.values, "status": motion.status, "value": drive.value, "rate": drive.rate,
            "second": drive.second, "slack": known.slack, "refined": known.refined, "clear": known.clear,
-           "ok": known.ok}  # fmt: skip
+           "ok": known.ok}
     yield from ((("", name), values) for name, values in own.items())
 
 
