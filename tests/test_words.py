@@ -191,3 +191,8 @@ def test_chinese_meets_chinese_without_a_space_and_all_else_with_it(number, sent
 def test_a_list_may_be_as_long_as_a_mechanism_has_names():
     names = [str(number) for number in range(5000)]
     assert ", ".join(names) == say(listed(names))
+
+
+def test_no_space_parts_chinese_from_chinese_on_either_side_of_a_gap():
+    said = [say(Phrase("link is the frame", name=name), "zh") for name in ("甲", "4")]
+    assert ["构件甲是机架", "构件 4 是机架"] == said

@@ -74,6 +74,17 @@ def test_the_law_of_a_driver_is_written_out() -> None:
     assert {"link": "1", "law": law, "time": 0.5} == stated
 
 
+def test_a_sliding_pair_driven_under_the_name_of_its_link_alone_keeps_its_table() -> None:
+    law = {"from": 520, "to": 560, "duration": 1.0, "by": "cycloidal"}
+    made = {
+        "frame": {"points": {"A": [0, 0], "C": [200, -300]}}, "driver": {"slide": "2", "law": law, "time": 0.5},
+        "links": {"1": {"points": ["A", "B"], "length": 400}, "2": {"points": ["B"], "on": "3"},
+                  "3": {"points": ["C"]}},
+    }  # fmt: skip
+    (stated,) = as_mapping(mechanism_of(made))["driver"]
+    assert {"slide": "2", "law": law, "time": 0.5} == stated
+
+
 TOLD = [graphkin.Scene.saying, lambda mechanism: graphkin.Scene.of(as_mapping(mechanism))]
 
 
