@@ -12,7 +12,9 @@ from graphkin.account.given import given_lengths
 from graphkin.account.notation import notation_of
 from graphkin.construction import draft, plan
 from graphkin.drawing import Text
+from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Group, Polygon, Polyline, walk
+from graphkin.drawing.parts.insets import INSET, coriolis_rows, coriolis_terms
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon import details
 from graphkin.drawing.place.piece import ink_box
@@ -302,3 +304,15 @@ def test_equations_with_names_as_long_as_they_may_be_stand_on_further_pages(lett
     }
     told = {text.replace(" ", "") for text in pages(draw(scene, figures=["sheet"], convention="us"))}
     assert set() == {f"A{b}{guide}", f"A{b}{guide}/{b}{block}c"} - told
+
+
+def test_coriolis_insets_stand_in_rows_and_what_has_no_room_is_left():
+    sheet = drafted("shaper-scheme-2")[1]
+    terms = coriolis_terms(sheet) * 3
+    room = Box(0.0, 0.0, INSET[0] + 1.0, 2 * INSET[1] + 5.0)
+    (drawn, left), (_, no_room_left) = (
+        coriolis_rows(sheet, terms, notation_of(sheet, "chinese"), each, 4.0)
+        for each in (room, room._replace(bottom=INSET[1] - 1.0))
+    )
+    insets = [thing for thing in walk(drawn.drawn) if isinstance(thing, Group) and "inset" in thing.classes]
+    assert (2, terms[2:], terms) == (len(insets), left, no_room_left)

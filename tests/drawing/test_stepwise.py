@@ -4,7 +4,8 @@ import pytest
 
 from graphkin.api.drawn import draw
 from graphkin.checking.report import Report
-from graphkin.drawing.ink.primitives import Group, Text, walk
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Line, Text, walk
 from graphkin.drawing.stepwise import so_far, step_of, stepped
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.pictures import parts
@@ -78,3 +79,10 @@ def test_a_file_leaves_unsaid_since_when_a_name_is_there_and_a_page_of_steps_say
 def test_a_part_is_there_from_the_step_on_that_finds_it(name, diagram, part, step):
     _, layers = _layers(name, diagram)
     assert {part: step} == {t.id: t.step for t in walk(layers) if isinstance(t, Group) and t.id == part}
+
+
+@pytest.mark.parametrize(("classes", "bands"), [((), 1), (("inset",), 0), (("ring",), 0)])
+def test_what_is_new_has_a_pale_band_but_no_inset_and_no_ring(classes, bands):
+    group = Group((Line(0j, 5 + 0j, strokes.LINK),), classes=classes, step=3)
+    new = [thing for thing in so_far((group,), 3, 3) if isinstance(thing, Group) and thing.classes == ("new",)]
+    assert bands == len(new)

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import pytest
 
@@ -18,6 +19,8 @@ from graphkin.drawing.ink.symbols import (
     slot,
     turning_pair,
 )
+from graphkin.drawing.parts.mechanism import _welds
+from graphkin.drawing.parts.mechanism_on_paper import LinkShape
 from graphkin.drawing.place.dimensions import angle_dimension, check_bar, dimension
 from graphkin.drawing.text import plain
 from graphkin.drawing.write.drawing import Drawing
@@ -124,3 +127,15 @@ def test_a_fixed_pivot_is_small_beside_a_mechanism():
     lines = [line for line in fixed_pivot(0j) if isinstance(line, Line)]
     box = Box.around(point for line in lines for point in (line.start, line.end))
     assert max(box.width, box.height) < 8.5
+
+
+@pytest.mark.parametrize(("length", "inside"), [(40.0, True), (3.0, False)])
+def test_the_arrowheads_of_a_short_dimension_stand_outside_it(length, inside):
+    heads = [part for part in dimension(0j, length + 0j, 8.0, plain("3", 2.8)) if isinstance(part, Polygon)]
+    assert [inside] * 2 == [all(-1e-9 <= z.real <= length + 1e-9 for z in head.points) for head in heads]
+
+
+@pytest.mark.parametrize(("places", "welds"), [({}, 1), ({"B": 10 + 0j}, 0)])
+def test_two_bars_of_a_link_are_welded_where_no_joint_is(places, welds):
+    shape = LinkShape("2", {}, bars=((0j, 10 + 0j), (10 + 0j, 10 + 10j)))
+    assert welds == len(_welds(SimpleNamespace(places=places), shape, strokes.BLACK))
