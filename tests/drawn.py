@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 
+from graphkin.checking.readings import report_on
 from graphkin.checking.report import Report
 from graphkin.construction import Sheet, execute, plan
 from graphkin.drawing import Drawing
@@ -15,6 +16,7 @@ from graphkin.drawing.figures.sheet import sheet_page
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
+from graphkin.solver import solve
 
 __all__ = ["drafted", "drafts", "drawn", "figures"]
 
@@ -32,19 +34,18 @@ def drafts(scene: Mechanism, at: Mapping[str, float] | None = None) -> tuple[She
 
 
 def drawn(name: str, language: str = "en", convention: str = "chinese") -> dict[str, Drawing]:
-    """Its figures, without a report."""
+    """Its figures; the sheet with its check."""
     return _drawn(name, language, convention)
 
 
 @cache  # which tells calls with and without the defaults apart
 def _drawn(name: str, language: str, convention: str) -> dict[str, Drawing]:
     own, on_sheet = drafted(name)
-    return figures(own, on_sheet, None, language, convention)
+    return figures(own, on_sheet, report_on(on_sheet, solve(on_sheet.scene)), language, convention)
 
 
 def figures(
-    own: Sheet, on_sheet: Sheet, report: Report | None = None, language: str | None = None,
-    convention: str | None = None,
+    own: Sheet, on_sheet: Sheet, report: Report, language: str | None = None, convention: str | None = None
 ) -> dict[str, Drawing]:
     """The single figures of a construction, and the pages of that for the sheet, with its check."""
     whole = sheet_page(FigurePage.of(on_sheet, "sheet", language, convention), report)

@@ -75,7 +75,7 @@ def velocities_by_centres(centres: Centres, motion: Motion) -> tuple[SpeedByCent
             of = centres.turning_of(symbol.of or PointRef("", symbol.link))
             chain = () if of is None else of.chain
             most = max(most, 1e-300)
-            rounded = float(motion.bounds_in_double()[1][0]) / (1.0 if symbol.is_vector else size)
+            rounded = float(motion.rates_in_double[0][0]) / (1.0 if symbol.is_vector else size)
             tolerance = max(TOLERANCE * most, rounded, SAFETY * centres.velocity_error(symbol))
             ok = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
         speeds.append(SpeedByCentres(symbol, "", value, wanted, chain, tolerance, most, ok))
@@ -124,7 +124,7 @@ def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> 
     _, sine = wedge(normal(place), normal(centre.place))
     # what rounding does to both grows as the relative motion gets small beside the motions themselves
     unit = centres.chart.unit / centres.mm
-    rounded = float(motion.bound.position[0]) / unit + float(motion.bounds_in_double()[1][0]) / (unit * strength)
+    rounded = float(motion.bound.position[0]) / unit + float(motion.rates_in_double[0][0]) / (unit * strength)
     # as do the numbers of the file, where they lie far apart
     given = TOLERANCE + 1e-14 * largest / strength
     return sine, given + SAFETY * centre.error + (rounded if math.isfinite(rounded) else 0.0)

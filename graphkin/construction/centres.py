@@ -472,12 +472,17 @@ class CircleDiagram:
         frame = self.links.scene.frame.name
 
         def gain(pair: LinkPair) -> tuple[bool, int, bool]:
-            more: set[LinkPair] = set()
-            if pair not in self.reached:  # those that the triangles reach, if not surely, give no more than these do
-                more = self.reached_with([pair], {name: set(others) for name, others in self.joined.items()})
-            return pair[0] in motions and pair[1] in motions, len(more), frame in pair
+            joined = {name: set(others) for name, others in self.joined.items()}
+            more = 0 if pair in self.reached else len(self.reached_with([pair], joined))
+            return pair[0] in motions and pair[1] in motions, more, frame in pair
 
-        return max((pair for pair in self.links.pairs if pair not in self.table), key=gain)
+        missing = [pair for pair in self.links.pairs if pair not in self.table]
+        sought = [pair for pair in missing if pair not in self.reached]
+        # those that the triangles reach, if not surely, give no more than the triangles do: the first of the best
+        # is enough, which saves the work of a power of the number of links
+        within = [pair for pair in missing if pair[0] in motions and pair[1] in motions] or missing
+        of_frame = [pair for pair in within if frame in pair]
+        return max([*sought, (of_frame or within)[0]], key=gain)
 
 
 def _with_table(links: Centres, instrument: Instrument) -> Centres:

@@ -251,9 +251,14 @@ class Motion:
         """Bounds of the rounding errors of any point, and of the angles of links and their rates; NaN where not ok."""
         return self.accuracy.of(())
 
-    def bounds_in_double(self, links: Iterable[str] = ()) -> tuple[Array, Array, Array]:
-        """The bounds of place, velocity and acceleration of some links, or of all, in 16 digits, as of a drawing, for
-        points as far off as the mechanism is large."""
+    @cached_property
+    def rates_in_double(self) -> tuple[Array, Array]:
+        """The bounds of velocity and acceleration of a computation in 16 digits, as of a drawing, for points as far off
+        as the mechanism is large."""
+        return self.bounds_in_double(())[1:]
+
+    def bounds_in_double(self, links: Iterable[str]) -> tuple[Array, Array, Array]:
+        """The bounds of some links in 16 digits: of place, velocity and acceleration."""
         size, error = self.accuracy.structure.scene.size, self.accuracy.of(links, drawn=True)
         return (
             error.position, np.maximum(error.velocity, size * error.omega),

@@ -142,7 +142,7 @@ def rounding_of(motion: Motion, symbols: Iterable[Symbol], of_forces: bool = Fal
         place, v, a = float(np.nan_to_num(position[0], posinf=0.0)), float(velocity[0]), float(acceleration[0])
         return Lost(place, v, a, force, v <= SLIGHT * rate * size and a <= SLIGHT * second * size)
 
-    whole = lost(motion.bound.position, *motion.bounds_in_double()[1:])
+    whole = lost(motion.bound.position, *motion.rates_in_double)
 
     rounding = dict.fromkeys(symbols, whole)
     for symbol in () if whole.slight else [symbol for symbol in rounding if symbol.scope != "force"]:

@@ -13,12 +13,16 @@ from functools import lru_cache
 import pytest
 
 import graphkin
+from graphkin.checking.readings import report_on
 from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, svg_bytes
+from graphkin.drawing.boxes import FigurePage
+from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, walk
 from graphkin.drawing.text import text_box
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.scene_tables import PAPERS
+from graphkin.solver import solve
 from tests import scenes
 from tests.drawn import drafted, drawn, figures
 
@@ -210,7 +214,8 @@ def test_the_description_tells_every_vector() -> None:
 
 def test_the_same_scene_gives_the_same_bytes() -> None:
     own, on_sheet = drafted(GUIDE)
-    one, two = (figures(own, on_sheet, None, "both") for _ in range(2))
+    report = report_on(on_sheet, solve(on_sheet.scene))
+    one, two = (figures(own, on_sheet, report, "both") for _ in range(2))
     assert [svg_bytes(d) for d in one.values()] == [svg_bytes(d) for d in two.values()]
 
 
@@ -340,7 +345,8 @@ def test_what_rolls_has_a_plan_by_itself_and_what_slides_on_an_outline_polygons_
 
 
 def test_a_redundant_crank_stands_on_a_fixed_pivot_and_bears_its_pins() -> None:
-    page = figures(*[draft(mechanism_of_text(scenes.DOUBLE_PARALLELOGRAM, "p"))] * 2)["mechanism"]
+    sheet = draft(mechanism_of_text(scenes.DOUBLE_PARALLELOGRAM, "p"))
+    page = diagram_figures(FigurePage.of(sheet, "", None, None))["mechanism"]
     points = {group.id: group for group in walk(page.children) if isinstance(group, Group)}
     rings = {name: sum(isinstance(one, Circle) for one in walk(points[f"point-{name}"].children)) for name in "ADEF"}
     assert {"A": 1, "D": 1, "E": 1, "F": 1} == rings
