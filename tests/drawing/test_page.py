@@ -114,6 +114,7 @@ def test_a_missing_chinese_font_is_one_warning_and_no_failure(monkeypatch):
     monkeypatch.setattr("graphkin.drawing.write.pdf.CHINESE", ())
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
+        warnings.simplefilter("ignore", ResourceWarning)  # of what other tests left open
         Drawing(60.0, 30.0, (Text(5 + 15j, rich("鑫")),), lang="zh").content("pdf")
     assert [MissingFont] == [warning.category for warning in caught]
 
