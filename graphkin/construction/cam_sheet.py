@@ -18,8 +18,8 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import NO_POINT, Bar, CompassArc, Curve, Mark, Ray
 from graphkin.construction.tasks import TaskBoard, TaskStep
 from graphkin.construction.touching import CamStation, station, stations
-from graphkin.plane import cross_arcs, cross_line_arc, dot, unit
-from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower
+from graphkin.plane import added_up, cross_arcs, cross_line_arc, dot, unit
+from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower, less_unless_touching
 
 STEP = math.radians(15.0)
 FEWEST, MOST = 4, 12
@@ -81,9 +81,6 @@ def _degrees(cam: LawCam) -> Iterator[float]:
 
 
 TINY = 1e-9  # of the base radius: a line nearer to the axis passes it
-TOUCHES, ONE = 1e-14, 1e-7
-"""Of the base radius: a line so near to the base circle touches it, and crossings so near to each other are one."""
-
 ROUNDING = 1e-15  # rad: an angle that is less is none
 
 
@@ -130,7 +127,7 @@ def _on_line(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instr
     foot = side * way * hand.compass(abs(away)) if abs(away) > TINY * cam.base * mm else 0j
     if cam.flat:  # the face touches the base circle, wherever its line runs
         start = foot + base * way
-    elif abs(abs(foot) - base) <= TOUCHES * base:
+    elif not less_unless_touching(base, abs(foot)):
         start = foot
     else:
         crossed = cross_line_arc(foot, way, 0j, base)
@@ -149,8 +146,9 @@ def _on_arc(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instru
     crossed = cross_arcs(0j, base, pivot, arm)
     if crossed is None:
         return None
-    start = min(crossed, key=lambda z: abs(z - given.base))
-    start = hand.point((crossed[0] + crossed[1]) / 2 if abs(crossed[1] - crossed[0]) <= ONE * base else start)
+    sides = abs(pivot), arm, base
+    touching = any(not less_unless_touching(added_up(sides) / 2, side) for side in sides)
+    start = hand.point(added_up(crossed, 0j) / 2 if touching else min(crossed, key=lambda z: abs(z - given.base)))
     turned = unit((given.point - given.line) / (given.base - given.line))
     bar = hand.angle(unit(start - pivot) * turned)
     point = hand.point(pivot + arm * bar)

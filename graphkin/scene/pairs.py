@@ -55,6 +55,12 @@ NO_GUIDE = PlacedGuide("", 0j, 0j)
 """Where a pair has no direction in which it slides: it turns."""
 OWN_AXIS = {"": PlacedGuide("")}
 """The one guide of a link that has no other: its own x axis."""
+TOUCHING = 1e-13
+
+
+def less_unless_touching(length: float, other: float) -> float:
+    """A length less another; 0 where a circle only touches a line or an arc: they differ by rounding alone."""
+    return length - other if abs(length - other) > TOUCHING * length else 0.0
 
 
 @dataclass(frozen=True)
@@ -555,17 +561,18 @@ class LawCam:
         """
         motion, length = self.motion, (units or Units()).of("length")
         if isinstance(motion, SlidingFollower):
-            square = (self.base - motion.offset) * (self.base + motion.offset)
-            if self.flat or square >= 0.0:
-                return self.base if self.flat else math.sqrt(square)
+            beyond = less_unless_touching(self.base, abs(motion.offset))
+            if self.flat or beyond >= 0.0:
+                return self.base if self.flat else math.sqrt(beyond * (self.base + abs(motion.offset)))
             said = Phrase("the line of follower passes outside the base", follower=self.follower)
             wanted = Phrase("its radius is at least the offset", length=length.said(abs(motion.offset)))
         else:
             # half the angle at the pivot of a triangle with these three sides
             a, b, c = abs(self.axis - motion.centre), motion.arm, self.base
             half = (a + b + c) / 2
-            under, over = (half - a) * (half - b), half * (half - c)
-            if under >= 0.0 < over:
+            over_a, over_b, over_c = (less_unless_touching(half, side) for side in (a, b, c))
+            under, over = over_a * over_b, half * over_c
+            if under >= 0.0 <= over:
                 return 2.0 * math.atan2(math.sqrt(under), math.sqrt(over))
             said = Phrase("follower does not reach the base circle of", follower=self.follower)
             wanted = Phrase("its radius lies between and", length=length.said(abs(a - b)), other=length.said(a + b))

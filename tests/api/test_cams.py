@@ -49,6 +49,25 @@ def test_the_cam_drawn_by_inversion_is_the_computed_one(seed):
     assert compare_cam(cam, cam_sheet(cam, 1e-3)).ok
 
 
+@pytest.mark.parametrize(("ground", "bar", "base"), [(106.7, 256.94, 150.24), (80, 120, 40)])
+def test_a_swinging_follower_may_begin_in_line_with_the_axis_of_its_cam(ground, bar, base):
+    scene = graphkin.read("cam-swinging-roller").replace("cams.1.base", {"r": base, "of": "pitch"})
+    scene = scene.replace("frame.points.C", [ground, 0]).replace("links.2.length", bar)
+    (cam,) = mechanism_of(scene).cams
+    assert cam.beginning() == 0.0
+    assert compare_cam(cam, cam_sheet(cam, 1e-3)).ok
+
+
+@pytest.mark.parametrize("angle", [40.1, 126, -168.72])
+def test_the_offset_of_a_follower_may_be_the_radius_of_the_base_circle(angle):
+    through = 11.2j * cmath.exp(1j * math.radians(angle))
+    scene = graphkin.read("cam-offset-roller").replace("cams.1.base", {"r": 11.2, "of": "pitch"})
+    guide = {"through": [through.real, through.imag], "angle": angle}
+    (cam,) = mechanism_of(scene.replace("cams.1.offset", None).replace("frame.guides.g", guide)).cams
+    assert cam.beginning() == 0.0
+    assert compare_cam(cam, cam_sheet(cam, 1e-3)).ok
+
+
 def test_a_roller_that_is_too_large_is_told_with_the_largest_that_would_do():
     scene = graphkin.read("cam-offset-roller").replace("cams.1.base", {"r": 41, "of": "pitch"})
     found = graphkin.cam(scene.replace("cams.1.roller", 40.5))
