@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import ClassVar
 
@@ -16,7 +16,7 @@ from graphkin.errors import Disagreement, Problem
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
-from graphkin.scene.tables import Unit, Units
+from graphkin.scene.tables import Unit, Units, derived
 from graphkin.solver.motion import SLIGHT
 from graphkin.solver.values import Lost
 from graphkin.structure import by_drivers_alone, greatest_before
@@ -129,7 +129,7 @@ class Report:
     rows: tuple[Compared, ...]
     missing: tuple[Symbol, ...] = ()
 
-    ok: bool = field(init=False, repr=False, compare=False)
+    ok: bool = derived()
 
     def __post_init__(self) -> None:
         found = any(row.ok and not row.by_drivers for row in self.rows) or all(row.by_drivers for row in self.rows)

@@ -37,7 +37,7 @@ from graphkin.scene.scene_tables import (
     no_position,
 )
 from graphkin.scene.symbol import PointRef, Printed, Symbol
-from graphkin.scene.tables import Unit, Units
+from graphkin.scene.tables import Unit, Units, derived
 
 SEARCHED = 2e-6  # of a radian, or of the size: a double zero is found no better
 EDGE = 1e-9
@@ -246,13 +246,13 @@ class Driver:
     near: float | None = None
     exact: str = ""
 
-    turns: bool = field(init=False, repr=False, compare=False)
-    key: str = field(init=False, repr=False, compare=False)
-    links: tuple[str, str] = field(init=False, repr=False, compare=False)
-    values: tuple[float, float, float] = field(init=False, repr=False, compare=False)
-    measure: str = field(init=False, repr=False, compare=False)
-    rolls: bool = field(init=False, repr=False, compare=False)
-    given: bool = field(init=False, repr=False, compare=False)
+    turns: bool = derived()
+    key: str = derived()
+    links: tuple[str, str] = derived()
+    values: tuple[float, float, float] = derived()
+    measure: str = derived()
+    rolls: bool = derived()
+    given: bool = derived()
 
     def __post_init__(self) -> None:
         self.__dict__.update(
@@ -389,16 +389,16 @@ class Mechanism:
     starts: Mapping[str, float] = field(default_factory=dict)
     slots: tuple[CircularSlot, ...] = ()
     question: Question = field(default_factory=Question)
-    slidings: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
-    contacts: tuple[PlacedContact, ...] = field(init=False, repr=False, compare=False)
-    gears: tuple[PlacedGear, ...] = field(init=False, repr=False, compare=False)
-    cams: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
-    acting: tuple[HigherPair, ...] = field(init=False, repr=False, compare=False)
-    contact_at: Mapping[str, PlacedContact] = field(init=False, repr=False, compare=False)
-    by_name: Mapping[str, PlacedLink] = field(init=False, repr=False, compare=False)
-    order: Mapping[str, int] = field(init=False, repr=False, compare=False)
-    holders: Mapping[str, tuple[str, ...]] = field(init=False, repr=False, compare=False)
-    size: float = field(init=False, repr=False, compare=False)
+    slidings: tuple[Pair, ...] = derived()
+    contacts: tuple[PlacedContact, ...] = derived()
+    gears: tuple[PlacedGear, ...] = derived()
+    cams: tuple[LawCam, ...] = derived()
+    acting: tuple[HigherPair, ...] = derived()
+    contact_at: Mapping[str, PlacedContact] = derived()
+    by_name: Mapping[str, PlacedLink] = derived()
+    order: Mapping[str, int] = derived()
+    holders: Mapping[str, tuple[str, ...]] = derived()
+    size: float = derived()
 
     def __hash__(self) -> int:
         return hash((self.name, tuple(link.name for link in self.links)))

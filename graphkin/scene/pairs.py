@@ -14,13 +14,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, NamedTuple, TypeAlias
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses, Values, cross, degrees
 from graphkin.scene.laws import FollowerLaw, Lift
-from graphkin.scene.tables import Units
+from graphkin.scene.tables import Units, derived
 from graphkin.words import Phrase, gaps_of, has_words
 
 ContactMotion = Literal["slides", "rolls", "meshes"]
@@ -90,12 +90,12 @@ class Pair:
     pin: str = ""
     of: str = ""
 
-    turns: bool = field(init=False, repr=False, compare=False)
-    higher: bool = field(init=False, repr=False, compare=False)
-    body: str = field(init=False, repr=False, compare=False)
-    links: tuple[str, str] = field(init=False, repr=False, compare=False)
-    point: str = field(init=False, repr=False, compare=False)
-    letter: str = field(init=False, repr=False, compare=False)
+    turns: bool = derived()
+    higher: bool = derived()
+    body: str = derived()
+    links: tuple[str, str] = derived()
+    point: str = derived()
+    letter: str = derived()
 
     def __post_init__(self) -> None:
         turns = not self.guide.direction

@@ -131,6 +131,11 @@ def key(
     return dataclasses.field(default=default, metadata=about)
 
 
+def derived() -> Any:
+    """A field of a dataclass that follows from the others: it is neither given nor shown nor compared."""
+    return dataclasses.field(init=False, repr=False, compare=False)
+
+
 @dataclass_transform(frozen_default=True, field_specifiers=(key, dataclasses.field))
 def file_table(kind: type[AnyTable]) -> type[AnyTable]:
     """Make a class of keys a table."""

@@ -17,6 +17,7 @@ from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.pairs import HigherPair, LawCam, Pair
 from graphkin.scene.symbol import Symbol, centre_links
+from graphkin.scene.tables import derived
 from graphkin.words import Phrase, bodies_named, joined, links_named, listed
 
 
@@ -136,15 +137,15 @@ class Driven:
     starts: ClassVar[tuple[Driver, ...]] = ()
     rolling: ClassVar[tuple[RollingRelation, ...]] = ()
 
-    links: tuple[str] = field(init=False, repr=False, compare=False)
-    members: tuple[str] = field(init=False, repr=False, compare=False)
-    pairs: tuple[Pair] = field(init=False, repr=False, compare=False)
-    all_pairs: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
-    drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
-    rolled: RollingRelation | None = field(init=False, repr=False, compare=False)
-    lifted: LawCam | None = field(init=False, repr=False, compare=False)
-    explicit: bool = field(init=False, repr=False, compare=False)
-    outside: frozenset[str] = field(init=False, repr=False, compare=False)
+    links: tuple[str] = derived()
+    members: tuple[str] = derived()
+    pairs: tuple[Pair] = derived()
+    all_pairs: tuple[Pair, ...] = derived()
+    drivers: tuple[Driver, ...] = derived()
+    rolled: RollingRelation | None = derived()
+    lifted: LawCam | None = derived()
+    explicit: bool = derived()
+    outside: frozenset[str] = derived()
     named = cached_property(_named)
 
     def __post_init__(self) -> None:
@@ -194,15 +195,15 @@ class Dyad:
     rolled: ClassVar[None] = None
     lifted: ClassVar[None] = None
 
-    bodies: tuple[Body, Body] = field(init=False, repr=False, compare=False)
-    members: tuple[str, ...] = field(init=False, repr=False, compare=False)
-    pairs: tuple[Pair, Pair, Pair] = field(init=False, repr=False, compare=False)
-    all_pairs: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
-    outer: tuple[Pair, Pair] = field(init=False, repr=False, compare=False)
-    joints: tuple[DrivenJoint, ...] = field(init=False, repr=False, compare=False)
-    drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
-    outside: frozenset[str] = field(init=False, repr=False, compare=False)
-    is_two_lines: bool = field(init=False, repr=False, compare=False)
+    bodies: tuple[Body, Body] = derived()
+    members: tuple[str, ...] = derived()
+    pairs: tuple[Pair, Pair, Pair] = derived()
+    all_pairs: tuple[Pair, ...] = derived()
+    outer: tuple[Pair, Pair] = derived()
+    joints: tuple[DrivenJoint, ...] = derived()
+    drivers: tuple[Driver, ...] = derived()
+    outside: frozenset[str] = derived()
+    is_two_lines: bool = derived()
     named = cached_property(_named)
 
     @property
@@ -262,9 +263,9 @@ class LargerGroup:
     rolled: ClassVar[None] = None
     lifted: ClassVar[None] = None
 
-    kind: str = field(init=False, repr=False, compare=False)
-    all_pairs: tuple[Pair, ...] = field(init=False, repr=False, compare=False)
-    outside: frozenset[str] = field(init=False, repr=False, compare=False)
+    kind: str = derived()
+    all_pairs: tuple[Pair, ...] = derived()
+    outside: frozenset[str] = derived()
     named = cached_property(_named)
 
     def __post_init__(self) -> None:
@@ -320,15 +321,15 @@ class Structure:
     relations: tuple[RollingRelation, ...] = ()
     touching: tuple[HigherPair, ...] = ()
 
-    blocks: Mapping[str, Pair] = field(init=False, repr=False, compare=False)
-    lifting: tuple[LawCam, ...] = field(init=False, repr=False, compare=False)
-    drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
-    groups: tuple[Dyad | LargerGroup, ...] = field(init=False, repr=False, compare=False)
-    driven: tuple[Driven, ...] = field(init=False, repr=False, compare=False)
-    dyads: Mapping[int, Dyad] = field(init=False, repr=False, compare=False)
-    larger_groups: tuple[LargerGroup, ...] = field(init=False, repr=False, compare=False)
-    place_of: Mapping[str, int] = field(init=False, repr=False, compare=False)
-    kept: dict[Hashable, Any] = field(init=False, repr=False, compare=False)
+    blocks: Mapping[str, Pair] = derived()
+    lifting: tuple[LawCam, ...] = derived()
+    drivers: tuple[Driver, ...] = derived()
+    groups: tuple[Dyad | LargerGroup, ...] = derived()
+    driven: tuple[Driven, ...] = derived()
+    dyads: Mapping[int, Dyad] = derived()
+    larger_groups: tuple[LargerGroup, ...] = derived()
+    place_of: Mapping[str, int] = derived()
+    kept: dict[Hashable, Any] = derived()
 
     def __post_init__(self) -> None:
         elements = self.elements
