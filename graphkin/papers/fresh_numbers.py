@@ -15,6 +15,7 @@ import random
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
@@ -78,6 +79,20 @@ def drivers_of(source: Tables) -> list[tuple[KeyPath, Tables]]:
     ]
 
 
+_DRIVER = {"angle": "angle", "travel": "travel", "omega": "rate", "rpm": "rate", "velocity": "rate"}
+_BY_LAW = {"law.duration": "rate", "law.to": "length", "time": "moment"}
+_ROUND = {"r": "length"}
+_VARIED: tuple[tuple[str, Mapping[str, str]], ...] = (
+    ("links.*", {"length": "length"}), ("frame.points.*", {**_ROUND, "0": "place", "1": "place"}),
+    ("frame.guides.*", {"through.*": "place"}), ("cams.*", {"base.r": "length"}),
+    ("driver", _DRIVER), ("driver.*", _DRIVER),
+    ("frame.discs.*", _ROUND), ("links.*.discs.*", _ROUND), ("gears.*", {"teeth.*": "teeth"}),
+    ("cams.*", {"law.*.to": "end", "law.*.rise": "length", "roller": "length"}),
+    ("driver", _BY_LAW), ("driver.*", _BY_LAW),
+)
+"""The varied numbers: in which tables, and under which keys of these, with their kinds."""
+
+
 def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:
     """The numbers of a scene file that variants change, with their kinds: "length", "place", "angle", "rate",
     "travel", "teeth", the "end" of a piece of a cam's law, the "moment" of a driver's.
@@ -85,62 +100,34 @@ def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:
     Zeros stay zero, and so do accelerations and the directions of guides.  Falls of cams follow the rises, lengths of
     carriers their wheels.
     """
-    return (*_plain_keys(source), *_fitting_keys(source))
+    return tuple((path, kind) for where, numbers in _VARIED for table in _matching(source, where)
+                 for key, kind in numbers.items()
+                 for path in _matching(value_at(source, table), key, table) if _is_free(source, path, kind))
 
 
-def _plain_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
-    """The numbers that need not fit others."""
-    for name, link in source.get("links", {}).items():
-        if "length" in link:
-            yield ("links", name, "length"), "length"
-    frame = source.get("frame", {})
-    for point, xy in frame.get("points", {}).items():
-        if isinstance(xy, dict):
-            yield ("frame", "points", point, "r"), "length"
-        else:
-            yield from ((("frame", "points", point, i), "place") for i in (0, 1) if xy[i])
-    for guide, table in frame.get("guides", {}).items():
-        through = table.get("through")
-        if isinstance(through, list):
-            yield from ((("frame", "guides", guide, "through", i), "place") for i in (0, 1) if through[i])
-    for name, cam in source.get("cams", {}).items():
-        if cam.get("base", {}).get("r"):
-            yield ("cams", name, "base", "r"), "length"
-    for path, driver in drivers_of(source):
-        for key in ("angle", "travel", "omega", "rpm", "velocity"):
-            if driver.get(key) or (key == "angle" and key in driver):
-                yield (*path, key), key if key in ("angle", "travel") else "rate"
+def _matching(place: Any, pattern: str, path: KeyPath = ()) -> Iterator[KeyPath]:
+    """The paths of a pattern of keys with dots in a part of a file, which lies at ``path``; * stands for every key of a
+    table, or every item of a list."""
+    step, _, rest = pattern.partition(".")
+    for key in place if isinstance(place, Mapping) else range(len(place)) if isinstance(place, list) else ():
+        if step in ("*", str(key)):
+            yield from _matching(place[key], rest, (*path, key)) if rest else ((*path, key),)
 
 
-def _fitting_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
-    """The numbers of discs, wheels, cams and driver laws."""
-    for path in _radii_of_discs(source):
-        if value_at(source, path):
-            yield path, "length"
-    for name, gear in source.get("gears", {}).items():
-        if all(isinstance(z, int | float) for z in gear.get("teeth", ["rack"])):
-            yield from ((("gears", name, "teeth", i), "teeth") for i in (0, 1))
-    for name, cam in source.get("cams", {}).items():
-        law = cam.get("law", ())
-        yield from ((("cams", name, "law", i, "to"), "end") for i in range(len(law) - 1))
-        yield from ((("cams", name, "law", i, "rise"), "length") for i, piece in enumerate(law) if piece.get("rise"))
-        if cam.get("roller"):
-            yield ("cams", name, "roller"), "length"
-    for path, driver in drivers_of(source):
-        law = driver.get("law", {})
-        if law.get("duration"):
-            yield (*path, "law", "duration"), "rate"
-            if law.get("to"):
-                yield (*path, "law", "to"), "length"
-            if driver.get("time"):
-                yield (*path, "time"), "moment"
+def _is_free(source: Tables, path: KeyPath, kind: str) -> bool:
+    """Whether a number is varied: it is not 0, and neither of a rack, nor the end of a whole law, nor the moment of a
+    law of several pieces."""
+    value, beside = value_at(source, path), value_at(source, path[:-1])
+    if not isinstance(value, int | float) or not (value or kind == "angle"):
+        return False
+    if kind == "end":
+        return path[-2] != len(value_at(source, path[:-2])) - 1
+    return "rack" not in beside and (kind != "moment" or bool(value_at(beside, ("law", "duration"))))
 
 
 def _radii_of_discs(source: Tables) -> Iterator[KeyPath]:
     """The radii of all discs, those of the frame first."""
-    owners: list[tuple[KeyPath, Tables]] = [(("frame",), source.get("frame", {}))]
-    owners += [(("links", name), link) for name, link in source.get("links", {}).items()]
-    return ((*where, "discs", name, "r") for where, owner in owners for name in owner.get("discs", {}))
+    return (path for of in ("frame", "links.*") for path in _matching(source, f"{of}.discs.*.r"))
 
 
 def candidate(source: Tables, spread: Spread, seed: int, number: int, attempt: int) -> OwnTables:

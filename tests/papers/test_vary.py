@@ -47,6 +47,15 @@ def test_nothing_else_varies_where_only_the_ranges_do():
     assert source["links"]["3"] == made["links"]["3"]
 
 
+def test_a_pivot_that_two_distances_place_stays_while_the_lengths_vary():
+    source, _ = written("fourbar-150-500-300-400")
+    points = {**source["frame"]["points"], "E": {"from": ["A", "D"], "r": [300, 200], "side": "left"}}
+    source = {**source, "frame": {**source["frame"], "points": points}}
+    made = candidate(source, Spread(), 1, 3, 0)
+    assert points["E"] == made["frame"]["points"]["E"]
+    assert source["links"]["2"] != made["links"]["2"]
+
+
 def test_each_variant_asks_some_of_the_list_in_its_order():
     asked = [tuple(candidate(_source(), Spread(), 1, n, 0)["find"]) for n in range(20)]
     assert {("v_C", "v_P"), ("v_C", "omega_2"), ("v_P", "omega_2")} == set(asked)
