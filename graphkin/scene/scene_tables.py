@@ -8,9 +8,9 @@ that the format leaves open.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, ClassVar, Literal
 
 from pydantic import Discriminator, Strict, StringConstraints, Tag
@@ -18,7 +18,7 @@ from pydantic import Field as Rule
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.laws import LAWS
-from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key
+from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key, named
 from graphkin.words import LANGUAGES, Phrase, listed
 
 SMALLEST, LARGEST = 1e-15, 1e15
@@ -150,9 +150,9 @@ class Frame(FileTable):
     """The fixed link."""
 
     name: LinkName = "0"
-    points: dict[PointName, FramePlace] = key(unit="length", closed=True, default_factory=dict)
-    guides: dict[LinkName, Guide] = key(closed=True, default_factory=dict)
-    discs: dict[LinkName, Disc] = key(closed=True, default_factory=dict)
+    points: dict[PointName, FramePlace] = named("length")
+    guides: dict[LinkName, Guide] = named()
+    discs: dict[LinkName, Disc] = named()
 
 
 @file_table
@@ -163,9 +163,9 @@ class Link(FileTable):
     length: Magnitude | None = key(unit="length", default=None)
     on: GuideRefs | None = None
     angle_on: Numbers | None = None
-    at: dict[PointName, At] = key(unit="length", closed=True, default_factory=dict)
-    guides: dict[LinkName, Guide] = key(closed=True, default_factory=dict)
-    discs: dict[LinkName, Disc] = key(closed=True, default_factory=dict)
+    at: dict[PointName, At] = named("length")
+    guides: dict[LinkName, Guide] = named()
+    discs: dict[LinkName, Disc] = named()
     start: Number | None = None
     redundant: Switch = False
 
@@ -429,7 +429,7 @@ class Positions(FileTable):
 
     count: Count | None = None
     first: Start | None = None
-    also: dict[PositionName, Start] = key(closed=True, default_factory=dict)
+    also: dict[PositionName, Start] = named()
     show: tuple[ShownName, ...] = ("limits", "all")
     marks: tuple[Literal["theta", "stroke", "K", "gamma"], ...] = ("theta", "stroke", "K", "gamma")
 
@@ -495,7 +495,7 @@ class Background(FileTable):
     """A photograph or scan to lie under the mechanism."""
 
     file: Text
-    points: dict[PointName, Place] = key(closed=True)
+    points: dict[PointName, Place] = named(needed=True)
 
 
 @file_table
@@ -535,7 +535,7 @@ class SheetWishes(FileTable):
 class Vary(FileTable):
     """The rules by which a set of problems is drawn from a scene."""
 
-    ranges: dict[str, Range] = key(default_factory=dict)
+    ranges: dict[str, Range] = field(default_factory=dict)
     only: bool = False
     keep: Keys = ()
     ratios: List[Keys] = ()
@@ -561,29 +561,29 @@ class SceneTables(FileTable):
     source_zh: Text = ""
     find: Symbols | None = None
     units: Units = Units()
-    frame: Frame = dataclasses.field(default_factory=Frame)
-    links: Annotated[dict[LinkName, Link], Rule(min_length=1)] = key(closed=True)
-    pins: dict[PointName, Pin] = key(closed=True, default_factory=dict)
-    contacts: dict[PointName, Contact] = key(closed=True, default_factory=dict)
-    gears: dict[LinkName, Gear] = key(closed=True, default_factory=dict)
+    frame: Frame = field(default_factory=Frame)
+    links: Annotated[dict[LinkName, Link], Rule(min_length=1)] = named(needed=True)
+    pins: dict[PointName, Pin] = named()
+    contacts: dict[PointName, Contact] = named()
+    gears: dict[LinkName, Gear] = named()
     driver: Drivers = ()
-    sketch: dict[PointName, Place] = key(unit="length", closed=True, default_factory=dict)
-    drawn: dict[PointName, Place] = key(unit="length", closed=True, default_factory=dict)
-    printed: dict[str, Stated] = key(default_factory=dict)
+    sketch: dict[PointName, Place] = named("length")
+    drawn: dict[PointName, Place] = named("length")
+    printed: dict[str, Stated] = field(default_factory=dict)
     printed_rows: tuple[dict[str, Stated], ...] = ()
     printed_table: PrintedTable | None = None
-    scans: dict[Diagram, ReadScan] = key(default_factory=dict)
+    scans: dict[Diagram, ReadScan] = field(default_factory=dict)
     positions: Positions | None = None
-    loops: dict[LinkName, PointNames] = key(closed=True, default_factory=dict)
-    cams: dict[LinkName, Cam] = key(closed=True, default_factory=dict)
+    loops: dict[LinkName, PointNames] = named()
+    cams: dict[LinkName, Cam] = named()
     gravity: Gravity | None = None
-    masses: dict[LinkName, Mass] = key(closed=True, default_factory=dict)
-    loads: dict[LinkName, Load] = key(closed=True, default_factory=dict)
-    springs: dict[LinkName, Spring] = key(closed=True, default_factory=dict)
+    masses: dict[LinkName, Mass] = named()
+    loads: dict[LinkName, Load] = named()
+    springs: dict[LinkName, Spring] = named()
     balance: Balance | None = None
     flywheel: Flywheel | None = None
     vary: Vary | None = None
-    grading: dict[str, NotNegative] = key(default_factory=dict)
+    grading: dict[str, NotNegative] = field(default_factory=dict)
     sheet: SheetWishes = SheetWishes()
 
 

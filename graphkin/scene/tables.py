@@ -109,26 +109,28 @@ class FileTable:
         return handler(rules) if rules["type"] == "dataclass" else {TABLE: cls.__name__}
 
 
-def key(
-    *, default: Any = MISSING, default_factory: Any = MISSING, name: str = "", unit: str = "", closed: bool = False
-) -> Any:
+def key(*, default: Any = MISSING, name: str = "", unit: str = "") -> Any:
     """A key of a table with more rules than its type and its default.
 
     Parameters
     ----------
-    default, default_factory : the value of a key that is left out
+    default : the value of a key that is left out
     name : the key in the file, where Python has that word for itself
     unit : the measure of its numbers, in whose unit the file has them; "" for numbers without one or left as written
-    closed : of a table whose keys are names of a pattern: no others may stand in it
     """
-    about: dict[str, object] = {"unit": unit}
-    if name:
-        about["alias"] = name
-    if closed:
-        about["json_schema_extra"] = {"additionalProperties": False}
-    if default_factory is not MISSING:
-        return dataclasses.field(default_factory=default_factory, metadata=about)
-    return dataclasses.field(default=default, metadata=about)
+    return dataclasses.field(default=default, metadata={"unit": unit} | ({"alias": name} if name else {}))
+
+
+def named(unit: str = "", needed: bool = False) -> Any:
+    """A key whose value is a table of entries by their names: no key may stand there that is no name.
+
+    Parameters
+    ----------
+    unit : as for `key`
+    needed : whether it may not be left out
+    """
+    about = {"unit": unit, "json_schema_extra": {"additionalProperties": False}}
+    return dataclasses.field(metadata=about) if needed else dataclasses.field(default_factory=dict, metadata=about)
 
 
 def derived() -> Any:
@@ -136,13 +138,13 @@ def derived() -> Any:
     return dataclasses.field(init=False, repr=False, compare=False)
 
 
-@dataclass_transform(frozen_default=True, field_specifiers=(key, dataclasses.field))
+@dataclass_transform(frozen_default=True, field_specifiers=(key, named, dataclasses.field))
 def file_table(kind: type[AnyTable]) -> type[AnyTable]:
     """Make a class of keys a table."""
     return dataclass(eq=False, repr=False)(kind)
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, dataclasses.field))
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, named, dataclasses.field))
 def file_table_by_name(kind: type[AnyTable]) -> type[AnyTable]:
     """Make a class of keys a table whose keys are given by name only."""
     return dataclass(eq=False, repr=False, kw_only=True)(kind)
