@@ -138,13 +138,13 @@ def derived() -> Any:
     return dataclasses.field(init=False, repr=False, compare=False)
 
 
-@dataclass_transform(frozen_default=True, field_specifiers=(key, named, dataclasses.field))
+@dataclass_transform(frozen_default=True, field_specifiers=(key, dataclasses.field))
 def file_table(kind: type[AnyTable]) -> type[AnyTable]:
     """Make a class of keys a table."""
     return dataclass(eq=False, repr=False)(kind)
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, named, dataclasses.field))
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, dataclasses.field))
 def file_table_by_name(kind: type[AnyTable]) -> type[AnyTable]:
     """Make a class of keys a table whose keys are given by name only."""
     return dataclass(eq=False, repr=False, kw_only=True)(kind)
@@ -543,14 +543,9 @@ class Form(Generic[AnyTable]):
             return problem("unknown table" if isinstance(value, dict) else "unknown key", self._about_key(loc))
         if "[key]" in loc or kind == "string_pattern_mismatch":
             return problem("is no name here", _name_rule(ctx))
-        if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
-            return problem("found value", "a text stands in quotation marks")
-        if kind == "float_type" and isinstance(value, str):
-            return problem("found value", "a number is written without quotation marks")
-        if kind in _KINDS:
-            return problem("found value", _KINDS[kind])
-        if kind == "finite_number":
-            return problem("found value", "a finite number is wanted")
+        for sort in (f"{kind} of {type(value).__name__}", kind):
+            if sort in _KINDS:
+                return problem("found value", _KINDS[sort])
         if kind == "literal_error":
             choices = re.findall(r"'([^']*)'", ctx["expected"])
             names = listed([f'"{c}"' for c in choices] or [str(ctx["expected"])])
@@ -563,10 +558,9 @@ class Form(Generic[AnyTable]):
             last = str(path[-1])
             noun = Phrase(f"noun {'scale' if last.endswith('scale') else _NOUNS.get(last, 'length')}")
             return problem(sign, "a must be positive", noun=noun)
-        if kind == "greater_than_equal":
-            return problem("found value", "the least that is possible here", limit=f"{ctx['ge']:g}")
-        if kind == "less_than_equal":
-            return problem("found value", "the most that is possible here", limit=f"{ctx['le']:g}")
+        if kind in _BOUNDS:
+            limit, wanted = _BOUNDS[kind]
+            return problem("found value", wanted, limit=f"{ctx[limit]:g}")
         if kind in ("too_short", "too_long") and loc == ("links",):
             return problem("there is none", "a scene has moving links links.1 and so")
         if kind in ("too_short", "too_long"):
@@ -667,6 +661,10 @@ _NOUNS = {
 }
 """What must be positive, where it is no length."""
 _KINDS = {
+    "string_type of int": "a text stands in quotation marks",
+    "string_type of float": "a text stands in quotation marks",
+    "float_type of str": "a number is written without quotation marks",
+    "finite_number": "a finite number is wanted",
     "string_type": "a text is wanted",
     "float_type": "a number is wanted",
     "int_type": "a whole number is wanted",
@@ -674,6 +672,10 @@ _KINDS = {
     "list_type": "a list is wanted",
     "dict_type": "a table is wanted",
     "dataclass_type": "a table is wanted",
+}
+_BOUNDS = {
+    "greater_than_equal": ("ge", "the least that is possible here"),
+    "less_than_equal": ("le", "the most that is possible here"),
 }
 _SIZES: Mapping[str, Wording] = {
     "on": "one guide or two are possible",
