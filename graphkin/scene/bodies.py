@@ -10,10 +10,11 @@ from __future__ import annotations
 import cmath
 import math
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import cached_property
+from itertools import chain, count
 from typing import TypeVar
 
 from graphkin.errors import Problem, SceneError, did_you_mean
@@ -527,7 +528,7 @@ def with_bars(reading: Reading) -> Reading:
                 reading.say(f"{where}.in", "is a point of link itself", "name the slot of another link", point=point,
                             key=slot[0])
             elif centres[slot]:
-                bar = _free(slot[1], taken)
+                bar = next(free_names(taken, slot[1]))
                 taken.add(bar)
                 bars[bar] = Link(points=[centres[slot], point], length=arcs[slot].r or 0.0)
                 note(slot, bar, point, pin.of)
@@ -576,7 +577,7 @@ def _centre(
     if arc.r is None:
         reading.say(f"{where}.r", "is missing", "write the slot's radius")
     if not isinstance(arc.centre, str):
-        point = _free("M", {p for each in points.values() for p in each})
+        point = next(free_names({p for each in points.values() for p in each}, "M"))
         given[point] = list(arc.centre)
         names.add(point)
         return point
@@ -587,5 +588,6 @@ def _centre(
     return arc.centre
 
 
-def _free(name: str, taken: set[str]) -> str:
-    return next(n for n in (name, *(f"{name}{k}" for k in range(1, 10_000))) if n not in taken)
+def free_names(taken: Container[str], *first: str) -> Iterator[str]:
+    """Names that are not taken: some first ones, then the first of them with numbers."""
+    return (name for name in chain(first, (f"{first[0]}{k}" for k in count(1))) if name not in taken)
