@@ -212,7 +212,7 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
             yield Phrase("why runs", point=of) if slide.higher else Phrase("why guided", point=of, link=slide.a)
             return
     for link in sheet.scene.links:
-        pivot = next((p for p in link.points if p in frame.points), None)
+        pivot = next(iter(sheet.scene.pivots(link.name)), None)
         own = of.link == link.name or (not of.link and of.point in link.points)
         if own and pivot is not None and pivot != of.point and symbol.kind == "v":
             yield Phrase("why turning", point=of, pivot=PointNames((pivot,)), link=link.name)

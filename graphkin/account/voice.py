@@ -159,7 +159,7 @@ def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
     mine = _links(scene.holders, of)
     if to is None:
         moving = [name for name in mine if name != scene.frame.name]
-        pivoted = [n for n in moving if any(scene.frame.name in scene.holders[p] for p in scene.by_name[n].points)]
+        pivoted = [n for n in moving if scene.pivots(n)]
         return (pivoted or moving or [scene.frame.name])[0]
     theirs = _links(scene.holders, to)
     if of.point != to.point:

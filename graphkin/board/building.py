@@ -286,15 +286,10 @@ def movable(scene: Mechanism) -> dict[str, str]:
 def _driven(scene: Mechanism, driver: Driver) -> list[str]:
     """The points with which a driver is turned or shifted by hand: those of a link about a pivot of the frame, and of
     a link on a guide of the frame."""
-    if driver.turns and driver.relative_to == scene.frame.name:
-        link = scene.by_name[driver.link]
-        if any(p in scene.frame.points for p in link.points):
-            return [p for p in link.points if p not in scene.frame.points]
-    if not driver.turns:
-        slide = next((s for s in scene.slidings if s.key == driver.key), None)
-        if slide is not None and slide.b == scene.frame.name:
-            return list(scene.by_name[slide.a].points)
-    return []
+    if driver.turns_about(scene.frame.name) and (pivots := scene.pivots(driver.link)):
+        return [p for p in scene.by_name[driver.link].points if p not in pivots]
+    rail = scene.rail(driver.link)
+    return [] if driver.turns or rail is None or rail.key != driver.key else [*scene.by_name[driver.link].points]
 
 
 def pulled(
@@ -358,14 +353,12 @@ def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
     scene, now = motion.scene, complex(motion.position(point)[0])
     index, driver = next(each for each in enumerate(scene.drivers) if point in _driven(scene, each[1]))
     if driver.turns:
-        pivot = next(p for p in scene.by_name[driver.link].points if p in scene.frame.points)
-        centre = scene.frame.points[pivot]
+        centre = scene.frame.points[scene.pivots(driver.link)[0]]
         if abs(to - centre) == 0.0:
             return {}
         turn = math.degrees(cmath.phase((to - centre) / (now - centre)))
         return {driver.key: math.degrees(float(motion.values[0][index])) + turn}
-    slide = next(s for s in scene.slidings if s.key == driver.key)
-    travel = float(motion.values[0][index]) + dot(to - now, slide.guide.direction)
+    travel = float(motion.values[0][index]) + dot(to - now, scene.sliding(driver.key).guide.direction)
     return {driver.key: travel / scene.units.metres}
 
 

@@ -127,7 +127,7 @@ class Evidence:
         sense, of a tangential acceleration counter-clockwise."""
         of, scene, points = symbol.of, self.sheet.scene, self.sheet.points
         if symbol.kind == "at" and of is not None:
-            pivots = (p for k in _links_of(scene, of) for p in k.points if p in scene.frame.points and p != of.point)
+            pivots = (p for k in _links_of(scene, of) for p in scene.pivots(k.name) if p != of.point)
             about = symbol.to.point if symbol.to else next(pivots, "")
             start, end = points.get(PointRef(about)), points.get(PointRef(of.point))
             return 1j * unit(end - start) if start is not None and end is not None and end != start else None
@@ -189,7 +189,7 @@ class Evidence:
             return None
         for link in _links_of(scene, point):
             rates = Symbol("omega", link=link.name), Symbol("alpha", link=link.name)
-            pivots = [z for name, z in link.points.items() if name in scene.frame.points]
+            pivots = [link.points[name] for name in scene.pivots(link.name)]
             if pivots and rates[1] in own:
                 omega, alpha = (float(own[s].real if s in own else self.exact(s).real) for s in rates)
                 arm = abs(link.points[point.point] - pivots[0])
@@ -364,7 +364,7 @@ def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
     if symbol.to is None:
         scene = case.plan.structure.scene
         for link in _links_of(scene, symbol.of):
-            for pivot in sorted(set(link.points) & set(scene.frame.points) - {symbol.of.point}):
+            for pivot in sorted({*scene.pivots(link.name)} - {symbol.of.point}):
                 parts += [Symbol(kind, symbol.of, PointRef(pivot)) for kind in ("an", "at")]
     for other in dict.fromkeys(parts):
         if other.kind in PARTS:

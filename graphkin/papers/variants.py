@@ -101,7 +101,7 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
         return scene.question.find
     structure = analyse(scene)
     driven = {e.link for e in structure.driven}
-    turning = [k.name for k in scene.links if k.name not in driven and set(k.points) & set(scene.frame.points)]
+    turning = [k.name for k in scene.links if k.name not in driven and scene.pivots(k.name)]
     symbols: list[Symbol] = []
     last = next(reversed(structure.groups), None)
     if last is not None:

@@ -438,6 +438,18 @@ class Mechanism:
         """The cam by whose law a link, or a sliding pair, moves; None where there is none."""
         return next((cam for cam in self.cams if name in (cam.follower, cam.motion.pair)), None)
 
+    def pivots(self, link: str) -> list[str]:
+        """The points of a link that are points of the frame too."""
+        return [point for point in self.by_name[link].points if point in self.frame.points]
+
+    def rail(self, link: str) -> Pair | None:
+        """The sliding pair in which a link slides on the frame; None where it does not."""
+        return next((pair for pair in self.slidings if pair.links == (link, self.frame.name)), None)
+
+    def sliding(self, key: str) -> Pair:
+        """The sliding pair of that name."""
+        return next(pair for pair in self.slidings if pair.key == key)
+
     @property
     def points(self) -> Mapping[str, tuple[str, ...]]:
         """The names of the points of each link, the frame's first."""

@@ -71,12 +71,11 @@ def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
         return None
     side = contact.bodies.index(driver.link)
     follower = contact.bodies[1 - side]
-    pivots = [p for p in scene.by_name[driver.link].points if p in scene.frame.points]
-    if driver.link == contact.face or not pivots:
+    if driver.link == contact.face or not scene.pivots(driver.link):
         return None
-    pair = next((s.key for s in scene.slidings if s.a == follower and s.b == scene.frame.name), None)
-    turns = any(p in scene.frame.points for p in scene.by_name[follower].points)
-    return (side, pair) if pair is not None else (side, follower) if turns else None
+    if (rail := scene.rail(follower)) is not None:
+        return side, rail.key
+    return (side, follower) if scene.pivots(follower) else None
 
 
 def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) -> DiscCam:
@@ -85,14 +84,14 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     which = contact.round_links.index(link)  # of the discs
     centre, radius = contact.centres[which], contact.radii[which]
     points = scene.by_name[link].points
-    axis = next(p for p in points if p in scene.frame.points)
+    axis = scene.pivots(link)[0]
     place = points[centre] - points[axis]
     eccentricity = abs(place)
     swings = "/" not in of
     ends = extremes(reach, Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
     offset = None
     if not swings:
-        guide = next(s.guide for s in scene.slidings if s.key == of)
+        guide = scene.sliding(of).guide
         at = guide.through
         if not contact.flat:
             at = reach.motion(np.zeros(1)).point(contact.centres[1 - which], follower).z[0]
@@ -124,15 +123,14 @@ def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> tuple[Arra
     assert sides is not None
     side, of = sides
     motion = reach.motion(reach.offsets(angle), unit=True)
-    axis = next(scene.frame.points[p] for p in scene.by_name[disc.link].points if p in scene.frame.points)
+    axis = scene.frame.points[scene.pivots(disc.link)[0]]
     back, place = np.conj(motion.poses[disc.link].u), motion.position(contact.name)
     if disc.swings:
         value = reach.angle(motion, disc.follower)
-        pivot = next(p for p in scene.by_name[disc.follower].points if p in scene.frame.points)
-        motion_of_follower = 1j * (place - scene.frame.points[pivot])
+        motion_of_follower = 1j * (place - scene.frame.points[scene.pivots(disc.follower)[0]])
     else:
         value = motion.slide(of)[0]
-        motion_of_follower = np.full(len(angle), next(s.guide.direction for s in scene.slidings if s.key == of))
+        motion_of_follower = np.full(len(angle), scene.sliding(of).guide.direction)
     pitch = None if contact.flat else (motion.position(contact.centres[1 - side], disc.follower) - axis) * back
     pressure = angle_between(contact_normal(motion, contact), motion_of_follower)
     return np.abs(value - disc.lowest), (place - axis) * back, pitch, pressure

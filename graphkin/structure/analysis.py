@@ -681,11 +681,12 @@ def driven_by(scene: Mechanism, link: str) -> Structure:
     CallError : there is no such link, or it neither turns about the frame nor slides on it
     Unsolvable : with this driver it is no mechanism
     """
-    frame, where = scene.frame, Phrase("driver of driver", driver=link)
+    where = Phrase("driver of driver", driver=link)
     known = [body.name for body in scene.links]
     if link not in known:
         raise CallError.of(where, "there is no link", did_you_mean(link, known), name=link)
-    slide = next((s.key for s in scene.slidings if s.a == link and s.b == frame.name), "")
-    if not slide and not any(p in frame.points for p in scene.by_name[link].points):
+    rail = scene.rail(link)
+    if rail is None and not scene.pivots(link):
         raise CallError.of(where, "neither turns about the frame nor slides on")
-    return analyse(replace(scene, drivers=(Driver(link, frame.name, 0.0, 0.0, 0.0, slide), *scene.drivers[1:])))
+    driver = Driver(link, scene.frame.name, 0.0, 0.0, 0.0, rail.key if rail else "")
+    return analyse(replace(scene, drivers=(driver, *scene.drivers[1:])))

@@ -15,11 +15,12 @@ Source: Artobolevsky, Theory of Machines and Mechanisms, on substitute linkages.
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Poses, cross, unit
+from graphkin.scene.bodies import free_names
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.pairs import OWN_AXIS, CircularSlot, HigherPair, Pair, PlacedContact, PlacedGuide, told
 from graphkin.structure.model import Mobility, Structure
@@ -121,7 +122,8 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
     slots: list[CircularSlot] = []
     contacts: list[PlacedContact] = []
     places: dict[str, complex] = {}
-    names, letters = _free_names(scene, "O", "Q"), _free_names(scene, "K")  # of centres of curvature, and of contacts
+    taken = {*scene.holders, *scene.contact_at}
+    names, letters = free_names(taken, "O", "Q"), free_names(taken, "K")  # of centres of curvature, and of contacts
     for cam in scene.cams:
         turn = poses[cam.link].axis
         lift = cam.law.at(cam.sense * cmath.phase(turn))
@@ -134,7 +136,7 @@ def cams_replaced(scene: Mechanism, poses: Poses, values: Mapping[str, float], b
             links[cam.link] = replace(link, points={**link.points, point: centre / turn})
             touches = not bars and abs(radius) >= SHARP * cam.base
             # the turn from the guide of a sliding follower to its own axis
-            turned = next(s.turn for s in scene.slidings if s.a == cam.follower and s.b == scene.frame.name)
+            turned = scene.sliding(cam.motion.pair).turn
             face = PlacedGuide("f", -(0.0 if touches else radius) / turned, 1j / turned)
             pin = pin_in_guide(links, point, cam.link, cam.follower, face)
             if touches:
@@ -182,9 +184,3 @@ def pin_in_guide(
         guide = replace(guide, name=guide.name + mark)
     links[on] = replace(links[on], guides={**links[on].guides, guide.name: guide})
     return Pair.of_pin(point, of, on, guide)
-
-
-def _free_names(scene: Mechanism, *first: str) -> Iterator[str]:
-    """Letters that no point and no contact has: free single letters, then the first of them with numbers."""
-    taken = {*scene.holders, *scene.contact_at}
-    return (name for name in (*first, *(f"{first[0]}{k}" for k in range(1, 1000))) if name not in taken)

@@ -205,9 +205,7 @@ CURVE_ROOM = complex(150.0, 180.0)  # mm, width and height at most of a coupler 
 def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
     """Points of couplers, links neither pivoted to the frame nor sliding on it, with their link; not points that other
     links share."""
-    frame = scene.frame
-    guided = {s.a for s in scene.slidings if s.b == frame.name}
-    plain = {link.name for link in scene.links if any(p in frame.points for p in link.points)} | guided
+    plain = {link.name for link in scene.links if scene.pivots(link.name) or scene.rail(link.name)}
     points: list[tuple[str, str]] = []
     for link in scene.links:
         if link.name in plain:

@@ -54,7 +54,7 @@ def on_paper(scene: Mechanism, symbol: Symbol) -> tuple[Symbol, complex]:
         return symbol.whole, 1.0 + 0j if symbol.axis == "x" else 1j
     if not symbol.is_rate_of_pair:
         return symbol, 1.0 + 0j
-    pair = next(pair for pair in scene.slidings if pair.key == symbol.pair)
+    pair = scene.sliding(symbol.pair)
     return Symbol(symbol.kind, PointRef(pair.pin)), pair.guide.direction
 
 

@@ -442,7 +442,7 @@ def output_links(scene: Mechanism) -> tuple[str, ...]:
         for link in scene.links
         if link.name not in driven
         and not (link.name in sliding and len(link.points) == 1)
-        and any(p in frame.points for p in link.points)
+        and scene.pivots(link.name)
     )
 
 

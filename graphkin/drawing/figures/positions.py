@@ -266,8 +266,7 @@ def _crank_end(sheet: Sheet) -> tuple[complex, complex] | None:
     driver = sheet.scene.drivers[0]
     if not driver.turns:
         return None
-    link = sheet.structure.links[driver.link]
-    pivot = next((p for p in link.points if p in sheet.scene.frame.points), None)
+    pivot = next(iter(sheet.scene.pivots(driver.link)), None)
     points = sheet.scene.whole.by_name[driver.link].points  # of a cam none of what stands for it
     far = [p for p in points if p != pivot and len(sheet.scene.holders[p]) > 1]
     if pivot is None or not far:
@@ -372,8 +371,7 @@ def _travel(shown: Shown) -> Iterator[_Wanted]:
             yield f"stroke-{output.replace('/', '-')}", False, [dimension(a, b, offset, words) for offset in OFFSETS]
     elif swing is not None:
         low = shown.limits[0]
-        points = low.structure.links[output].points
-        pivot = next((p for p in points if p in low.scene.frame.points), None)
+        pivot = next(iter(low.scene.pivots(output)), None)
         if pivot is not None:
             begin = cmath.phase(low.poses[output].axis)
             words = rich(sign("ψ") + f" = {number(math.degrees(swing), 5)}°", 2.8)
