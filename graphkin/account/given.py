@@ -349,10 +349,8 @@ def _place_on(scene: Mechanism, name: str, at: complex, letters: Notation) -> Wo
 
 def _load(scene: Mechanism, load: LoadOn, letters: Notation) -> Phrase:
     """The given data of a load; of the balancing load, whose size is sought, its line."""
-    sought, kind = not load.name, "F" if load.is_force else "M"
-    symbol = Symbol(kind, link=load.link) if sought else Symbol("P", name=load.name, turning=not load.is_force)
-    unit, name = symbol.unit(scene.units), force_letters(letters.convention, symbol)
-    size = name if sought else Neutral(name, f" = {unit.beside(number(unit.of(load.size)))}")
+    unit, name = load.symbol.unit(scene.units), force_letters(letters.convention, load.symbol)
+    size = Neutral(name, f" = {unit.beside(number(unit.of(load.size)))}") if load.name else name
     return load_given(scene, load, size, letters)
 
 
@@ -384,7 +382,7 @@ def _spring_given(scene: Mechanism, spring: SpringOn, letters: Notation) -> Phra
     """The given data of a spring, in words with symbols."""
     numbers = {gap: Neutral(f"{number(value)} {unit}") for gap, (value, unit) in spring.numbers(scene.units).items()}
     one, two = (letters.point(point) for point in spring.points)
-    name = force_letters(letters.convention, Symbol("P", name=spring.name))
+    name = force_letters(letters.convention, spring.symbol)
     return Phrase(f"given {spring.kind}", **{**spring.gaps, "point": one, "other_point": two}, **numbers, force=name)
 
 

@@ -30,7 +30,7 @@ from graphkin.scene.pairs import HigherPair, PlacedGear
 from graphkin.scene.scene_tables import STANDARD_GRAVITY
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Motion, solve
-from graphkin.solver.forces import forces_of, senses_along, value_of
+from graphkin.solver.forces import Forces, forces_of, senses_along, value_of
 from graphkin.solver.values import as_drawn, exact_values
 from graphkin.words import Phrase, Wording, listed
 
@@ -537,10 +537,15 @@ def _instead(things: Sequence[T], one: T, *others: T) -> tuple[T, ...]:
     return tuple(kept for thing in things for kept in (others if thing is one else (thing,)))
 
 
+def _under(motion: Motion, loading: Loading) -> Forces:
+    """The forces of a motion under other loads."""
+    scene = replace(motion.scene, loading=loading)
+    return forces_of(replace(motion, structure=replace(motion.structure, scene=scene)))
+
+
 def _forces(motion: Motion, loading: Loading) -> Values:
     """The forces (N) and moments (N m) at a motion's position under other loads."""
-    scene = replace(motion.scene, loading=loading)
-    forces = forces_of(replace(motion, structure=replace(motion.structure, scene=scene)))
+    forces = _under(motion, loading)
 
     def value(symbol: Symbol) -> Value | None:
         found = forces.value(symbol)
@@ -558,17 +563,13 @@ def _finite(symbol: Symbol, value: complex) -> Value | None:
 
 def _standing(motion: Motion) -> tuple[tuple[LoadOn, ...], tuple[LoadOn, ...]]:
     """The loads that act at the position, and those that do not, each as it is there."""
-    scene = motion.scene
-    here = forces_of(motion)
-    always = replace(
-        scene.loading, gravity=0j, loads=tuple(replace(load, phase=None) for load in scene.loading.loads),
-        flywheel=None,
-    )
-    there = forces_of(replace(motion, structure=replace(motion.structure, scene=replace(scene, loading=always))))
+    loading = motion.scene.loading
+    always = replace(loading, gravity=0j, loads=tuple(replace(load, phase=None) for load in loading.loads))
+    here, there = forces_of(motion), _under(motion, always)
     acting: list[LoadOn] = []
     idle: list[LoadOn] = []
-    for load in scene.loading.loads:
-        acting_now, value = (forces.values[Symbol("P", name=load.name)][0] for forces in (here, there))
+    for load in loading.loads:
+        acting_now, value = (forces.values[load.symbol][0] for forces in (here, there))
         if not value:
             continue
         bare = replace(load, phase=None)

@@ -73,6 +73,13 @@ class LoadOn:
     against: str = ""
     phase: LoadPhase | None = None
 
+    @property
+    def symbol(self) -> Symbol:
+        """Its symbol ``P_name``; of a balancing load, which has no name, ``F_2`` or ``M_2``."""
+        if self.name:
+            return Symbol("P", name=self.name, turning=not self.is_force)
+        return Symbol("F" if self.is_force else "M", link=self.link)
+
     def without_stroke(self, stop: Unsolvable) -> Unsolvable:
         """The refusal of the stroke on a part of which it acts, by the load: nobody asked for the stroke."""
         where = f"loads.{self.name}.when.stroke"
@@ -132,6 +139,11 @@ class SpringOn:
     preload: float = 0.0
     kind: ClassVar[str] = "spring"
 
+    @property
+    def symbol(self) -> Symbol:
+        """The symbol of its force."""
+        return Symbol("P", name=self.name)
+
     def pull(self, length: Any) -> Any:
         """Its pull at a length (N, m): floats, or arrays of one shape."""
         return self.preload + self.rate * (length - self.free)
@@ -177,8 +189,7 @@ class Loading:
     @property
     def applied(self) -> tuple[Symbol, ...]:
         """The forces and moments of loads and springs by name."""
-        loads = (Symbol("P", name=load.name, turning=not load.is_force) for load in self.loads)
-        return *loads, *(Symbol("P", name=spring.name) for spring in self.springs)
+        return *(load.symbol for load in self.loads), *(spring.symbol for spring in self.springs)
 
 
 @dataclass(frozen=True)
@@ -670,7 +681,7 @@ def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
     for joint in joints(mechanism):
         made += [joint.symbol("F"), *([joint.symbol("M")] if joint.couple else [])]
     if loading.balance is not None:
-        made.append(Symbol("F" if loading.balance.is_force else "M", link=loading.balance.link))
+        made.append(loading.balance.symbol)
     else:
         made += [balance_of(mechanism, driver) for driver in mechanism.drivers]
     return tuple(dict.fromkeys(made))
