@@ -30,32 +30,17 @@ from graphkin.structure import kept_with
 from graphkin.words import Phrase, Wording
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class PairForce:
-    """A force of one direction, or a couple, of ``first`` on ``second``, of unknown size; its opposite acts on
-    ``first``.
-
-    along : unit direction of a force: a number if it is constant, or shape (n,); None for a couple
-    at : the place of the force, shape (n,) (m)
-    """
-
-    symbol: Symbol
-    first: str
-    second: str
-    along: complex | Array | None
-    at: Array
-
-
-def pair_forces(motion: Motion) -> Iterator[PairForce]:
-    """The forces and couples in the pairs of a motion: of a turning pair the two components of its force, of a sliding
-    pair a force square to the guide at the sliding link's first point and a couple, of a pin in a slot a force square
-    to the slot, of a cam or a sliding contact one along the normal, of wheels one along the tangent of the pitch
-    circles."""
+def pair_forces(motion: Motion) -> Iterator[Action]:
+    """The unknown forces and couples in the pairs of a motion, forces of 1 N, couples of the mechanism's size in N m:
+    of a turning pair the two components of its force, of a sliding pair a force square to the guide at the sliding
+    link's first point and a couple, of a pin in a slot a force square to the slot, of a cam or a sliding contact one
+    along the normal, of wheels one along the tangent of the pitch circles."""
     for joint in joints(motion.scene):
-        ways, at = _lines(motion, joint)
-        yield from (PairForce(joint.symbol("F"), joint.first, joint.second, way, at) for way in ways)
+        directions, at = _lines(motion, joint)
+        for along in directions:
+            yield Action(joint.symbol("F"), joint.second, at, np.asarray(along), other=joint.first)
         if joint.couple:
-            yield PairForce(joint.symbol("M"), joint.first, joint.second, None, at)
+            yield Action(joint.symbol("M"), joint.second, None, np.asarray(motion.scene.size), other=joint.first)
 
 
 def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array], Array]:
@@ -76,25 +61,25 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
     return along[joint.pair.means], at
 
 
-def balances(motion: Motion) -> Iterator[PairForce]:
-    """The balancing loads: for each driver a moment or a force between the two links that it moves relatively, or the
-    scene's own balance."""
+def balances(motion: Motion) -> Iterator[Action]:
+    """The balancing loads, of the sizes of `pair_forces`: for each driver a moment or a force between the two links
+    that it moves relatively, or the scene's own balance."""
     scene = motion.scene
-    said = scene.loading.balance
+    said, couple = scene.loading.balance, np.asarray(scene.size)
     if said is not None:
         pose = motion.poses[said.link]
-        along = None if not said.is_force else said.turn * np.asarray(pose.u) if said.follows else said.turn
-        symbol = Symbol("F" if said.is_force else "M", link=said.link)
-        yield PairForce(symbol, scene.frame.name, said.link, along, np.asarray(pose.fixed(said.at).z))
+        along = np.asarray(said.turn * (pose.u if said.follows else 1.0))
+        at = np.asarray(pose.fixed(said.at).z) if said.is_force else None
+        yield Action(said.symbol, said.link, at, along if said.is_force else couple, other=scene.frame.name)
         return
     for driver in scene.drivers:
         symbol = balance_of(scene, driver)
         if driver.turns:
-            yield PairForce(symbol, driver.relative_to, driver.link, None, np.asarray(motion.poses[driver.link].z))
+            yield Action(symbol, driver.link, None, couple, other=driver.relative_to)
             continue
         slide = motion.structure.slide(driver.key)
-        along = -1j * _square(motion, slide)
-        yield PairForce(symbol, slide.b or scene.frame.name, slide.body, along, _foot(motion, slide))
+        along = np.asarray(-1j * _square(motion, slide))
+        yield Action(symbol, slide.body, _foot(motion, slide), along, other=slide.b or scene.frame.name)
 
 
 def _foot(motion: Motion, slide: Pair) -> Array:
@@ -127,7 +112,7 @@ class Forces:
     acting: tuple[Action, ...]
 
     @cached_property
-    def unknowns(self) -> tuple[PairForce, ...]:
+    def unknowns(self) -> tuple[Action, ...]:
         """The forces of the pairs, and the balances."""
         return *pair_forces(self.motion), *balances(self.motion)
 
@@ -143,9 +128,15 @@ class Forces:
     def _size(self) -> float:
         return self.motion.scene.size
 
-    def _arm(self, link: str, at: Array) -> Array:
-        """The vector from a link's origin to a place, over the size."""
-        return (at - self.motion.poses[link].z) / self._size
+    def _parts(self, link: str, at: Array | None, value: Array) -> dict[int, Array]:
+        """What an action adds to the equations of a link, by their rows; nothing for the frame."""
+        row = self._row.get(link)
+        if row is None:
+            return {}
+        if at is None:
+            return {row + 2: value / self._size}
+        arm = (at - self.motion.poses[link].z) / self._size
+        return {row: value.real, row + 1: value.imag, row + 2: cross(arm, value)}
 
     def _equations(self) -> tuple[Array, Array, Array]:
         """Equilibrium of each link, three rows each: both components of force, and moment about its origin over the
@@ -157,16 +148,10 @@ class Forces:
         good : whether the inverse exists, shape (n,)
         """
         matrix = np.zeros((len(self.motion), 3 * len(self._row), len(self.unknowns)))
-        for k, one in enumerate(self.unknowns):
-            for link, sign in ((one.second, 1.0), (one.first, -1.0)):
-                i = self._row.get(link)
-                if i is None:
-                    continue
-                if one.along is None:
-                    matrix[:, i + 2, k] = sign
-                    continue
-                matrix[:, i, k], matrix[:, i + 1, k] = sign * one.along.real, sign * one.along.imag
-                matrix[:, i + 2, k] = sign * cross(self._arm(link, one.at), one.along)
+        for k, unknown in enumerate(self.unknowns):
+            for link, sign in ((unknown.link, 1.0), (unknown.other, -1.0)):
+                for row, part in self._parts(link, unknown.at, unknown.value).items():
+                    matrix[:, row, k] = sign * part
         good, (rows, columns) = self.motion.ok, matrix.shape[1:]
         if rows != columns:
             return matrix, np.zeros((len(good), columns, rows)), np.zeros_like(good)
@@ -178,16 +163,9 @@ class Forces:
     def _right(self, values: Iterable[Array]) -> Array:
         """The known actions, with these values, on the other side of the equations, shape (rows, n)."""
         right = np.zeros((3 * len(self._row), len(self.motion)))
-        for one, value in zip(self.acting, values, strict=True):
-            i = self._row.get(one.link)
-            if i is None:  # a spring's force on the frame
-                continue
-            if one.at is None:
-                right[i + 2] -= value / self._size
-                continue
-            right[i] -= value.real
-            right[i + 1] -= value.imag
-            right[i + 2] -= cross(self._arm(one.link, one.at), value)
+        for action, value in zip(self.acting, values, strict=True):
+            for row, part in self._parts(action.link, action.at, value).items():
+                right[row] -= part
         return right
 
     @cached_property
@@ -212,10 +190,9 @@ class Forces:
     def _by_symbol(self, found: Array) -> dict[Symbol, Array]:
         """The columns of the answer by their symbols, both components of a force together."""
         made: dict[Symbol, Array] = {}
-        for one, size in zip(self.unknowns, found, strict=True):
-            value = size * (self._size if one.along is None else one.along)
-            component = one.along is not None and one.symbol in made
-            made[one.symbol] = made[one.symbol] + value if component else value
+        for unknown, size in zip(self.unknowns, found, strict=True):
+            symbol, value = unknown.symbol, size * unknown.value
+            made[symbol] = made[symbol] + value if unknown.at is not None and symbol in made else value
         return made
 
     # the answer
@@ -232,7 +209,10 @@ class Forces:
         """Forces and moments by their symbols.  Complex, shape (n,), N: pair forces ``F_5/6`` (of link 5 on link 6),
         inertia forces ``Fi_6``, weights ``G_6``, loads ``P_name``, balancing forces ``F_2``; real, shape (n,), N m:
         couples of sliding pairs ``M_5/6``, inertia couples ``Mi_6``, loads, balancing moments ``M_2``."""
-        values = {one.symbol: one.value for one in self.acting if one.symbol} | self._by_symbol(self._found[0][0])
+        known = dict[Symbol, Array]()
+        for action in self.acting:
+            known.setdefault(action.symbol, action.value)  # of a spring the force on its first link
+        values = known | self._by_symbol(self._found[0][0])
         return values if self.ok.all() else {symbol: known_where(self.ok, value) for symbol, value in values.items()}
 
     @cached_property
@@ -244,7 +224,7 @@ class Forces:
         if not jumping:
             return {}
         changed = ok & np.any([one.beside != one.value for one in jumping], axis=0)
-        made = {one.symbol: one.beside for one in jumping if one.symbol and one.beside is not None}
+        made = {one.symbol: one.beside for one in jumping if one.beside is not None}
         if changed.any():
             made |= self._by_symbol(np.where(changed, self._found[1][0], np.nan))
         least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num([*here.values(), *made.values()])), axis=0)
@@ -284,14 +264,14 @@ class Forces:
             i = self._row[load.link]
             right[i : i + 3] += abs(load.size) * (turn[0] + place / size + 8 * EPS if load.is_force else EPS / size)
         for spring in loading.springs:
-            force = np.abs(self.values[Symbol("P", name=spring.name)])
+            force = np.abs(self.values[spring.symbol])
             length = np.abs(np.subtract(*spring_ends(motion, spring)))
             with np.errstate(divide="ignore", invalid="ignore"):  # of a spring without a line
                 error = spring.rate * (2 * place + 8 * EPS * length) + force * (2 * place / length + turn[0] + 8 * EPS)
             for link in spring.links:
                 if link in self._row:
                     right[self._row[link] : self._row[link] + 3] += np.nan_to_num(error)
-        values = (self.values[one.symbol] / (size if one.along is None else 1.0) for one in self.unknowns)
+        values = (self.values[one.symbol] / (size if one.at is None else 1.0) for one in self.unknowns)
         found = np.nan_to_num([np.abs(value) for value in values])
         matrix = np.nan_to_num(matrix)
         error = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
@@ -323,10 +303,8 @@ class Forces:
 
     @property
     def balancing(self) -> Iterator[Action]:
-        """The balancing loads as actions on both links of each balance."""
-        for one in balances(self.motion):
-            value, place = self.values[one.symbol], None if one.along is None else one.at
-            yield from (Action(None, one.second, place, value), Action(None, one.first, place, -value))
+        """The balancing loads with their values."""
+        return (replace(balance, value=self.values[balance.symbol]) for balance in balances(self.motion))
 
     def value(self, symbol: Symbol) -> Array | None:
         """A force or a moment, ``F_6/5`` being the opposite of ``F_5/6``, ``F_5/6+`` with the loads that begin or end
@@ -356,22 +334,27 @@ def forces_of(motion: Motion) -> Forces:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Action:
-    """A force or a couple on a link.
+    """A force or a couple on a link; of a pair, or a balance, its opposite on another.
 
-    symbol : ``Fi_6``, ``G_6``, ``P_name``; None for the second force of a spring
+    symbol : ``Fi_6``, ``G_6``, ``P_name``, ``F_5/6``; both forces of a spring have the same
     at : the place of a force, complex, shape (n,) (m); None for a couple
-    value : force, complex, shape (n,) (N), or couple, real (N m)
+    value : force, complex, shape (n,) (N), or couple, real (N m); one that is constant may have shape ()
     beside : the value with the loads that begin or end exactly at a position; None where it does not change
+    other : the link on which the opposite acts
     """
 
-    symbol: Symbol | None
+    symbol: Symbol
     link: str
     at: Array | None
     value: Array
     beside: Array | None = None
+    other: str = ""
 
     def power(self, motion: Motion) -> Array:
-        """Its power (W), shape (n,)."""
+        """Its power (W), that of its opposite included, shape (n,)."""
+        if self.other:
+            on_link, on_other = (replace(self, link=link, other="") for link in (self.link, self.other))
+            return on_link.power(motion) - on_other.power(motion)
         pose = motion.poses[self.link]
         if self.at is None:
             return self.value * pose.omega
@@ -406,8 +389,8 @@ def _spring(motion: Motion, spring: SpringOn) -> Iterator[Action]:
     length = np.abs(way)
     along = np.divide(way, length, out=np.full(len(motion), complex(np.nan, np.nan)), where=_has_line(motion, length))
     force = np.asarray(spring.pull(length) * along)
-    yield Action(Symbol("P", name=spring.name), spring.links[0], one, force)
-    yield Action(None, spring.links[1], two, -force)
+    yield Action(spring.symbol, spring.links[0], one, force)
+    yield Action(spring.symbol, spring.links[1], two, -force)
 
 
 def spring_ends(motion: Motion, spring: SpringOn) -> tuple[Array, Array]:
@@ -433,8 +416,7 @@ def _load(motion: Motion, load: LoadOn) -> Action:
     value = _force(motion, load) if load.is_force else np.full(len(motion), load.size)
     beside = np.where(acts | edge, value, 0.0) if edge.any() else None
     surely = acts & ~edge
-    symbol = Symbol("P", name=load.name, turning=not load.is_force)
-    return Action(symbol, load.link, at, value if surely.all() else np.where(surely, value, 0.0), beside)
+    return Action(load.symbol, load.link, at, value if surely.all() else np.where(surely, value, 0.0), beside)
 
 
 def _force(motion: Motion, load: LoadOn) -> Array:

@@ -204,12 +204,11 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
 def _arm(moving: Motion, forces: Forces, of: Symbol) -> float:
     """The component of a point's velocity along its force; for a balancing force along its line, positive in the line's
     own sense."""
-    from graphkin.solver.forces import Action, actions, balances
+    from graphkin.solver.forces import actions, balances
 
-    for one in balances(moving):
-        if one.symbol == of:
-            on, back = (Action(None, link, one.at, np.asarray(one.along)) for link in (one.second, one.first))
-            return float((on.power(moving) - back.power(moving))[0])
+    for balance in balances(moving):
+        if balance.symbol == of:
+            return float(balance.power(moving)[0])
     force = forces.values[of] if forces.values[of][0] else forces.beside.get(of, forces.values[of])
     acting = next(one for one in actions(moving) if one.symbol == of)
     return float(replace(acting, value=force).power(moving)[0] / abs(force[0])) if force[0] else 0.0
