@@ -93,13 +93,12 @@ def _numbered(sheet: Sheet) -> Sheet:
     inertias = {link: numbered(step) for link, step in sheet.inertias.items()}
     springs = tuple(map(numbered, sheet.springs))
     first = [in_order(group) for group in bare]
-    groups = [
-        tuple(done if drawn == before else in_order(drawn)
-              for drawn, before, done in zip(state.groups, bare, first, strict=True))
+    states = [
+        replace(state, groups=tuple(done if drawn == before else in_order(drawn)
+                                    for drawn, before, done in zip(state.groups, bare, first, strict=True)))
         for state in sheet.forces
     ]
-    states = (replace(state, groups=drawn, levers=tuple(map(in_order, state.levers)))
-              for state, drawn in zip(sheet.forces, groups, strict=True))
+    states = [replace(state, levers=tuple(map(in_order, state.levers))) for state in states]
     return replace(sheet, inertias=inertias, springs=springs, forces=tuple(states))
 
 
@@ -126,10 +125,6 @@ def force_scales(sheet: Sheet) -> ForceScales:
     return {(): common} | {links: fitting(polygons[links]) for links in small}
 
 
-Found = dict[Symbol, tuple[complex, tuple[str, ...]]]
-"""Drawn forces (N), each with the links on which it acts."""
-
-
 def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[ForceVector, ...]) -> ForceState:
     """All forces, from the known loads."""
     common, drawn_at = scales[()], dict[str, float]()  # the scale of the polygons of each link, in order
@@ -144,18 +139,13 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
             groups.append(of_dyad(cut, element))
         else:
             groups.append(of_larger_group(cut, element))
-    loads = (load for load in known if not load.turned and load.symbol.is_vector)
-    forces: Found = {load.symbol: (load.force, (load.link,)) for load in loads}
-    moments = {load.symbol: load.moment for load in known if not load.symbol.is_vector}
-    _joints(cut, forces, moments)
-    for balance in cut.balances:
-        if balance.symbol.is_vector:
-            forces[balance.symbol] = balance.force, (balance.link,)
-        else:
-            moments[balance.symbol] = balance.moment
-    vectors = {symbol: force for symbol, (force, _) in forces.items()}
-    per_mm = {symbol: next((drawn_at[name] for name in drawn_at if name in links), common)
-              for symbol, (_, links) in forces.items()}
+    loads = (load for load in known if not load.turned)
+    found = [*loads, *_of_joints(cut), *(changed(balance, off="") for balance in cut.balances)]
+    forces = [load for load in found if load.symbol.is_vector]
+    vectors = {load.symbol: load.force for load in forces}
+    moments = {load.symbol: load.moment for load in found if not load.symbol.is_vector}
+    per_mm = {load.symbol: next((drawn_at[name] for name in drawn_at if name in (load.link, load.off)), common)
+              for load in forces}
     for k, group in enumerate(groups):  # what was read of forces of pairs, by their names
         named = {symbol: vectors.get(symbol, vectors.get(symbol.opposite)) for symbol in group.read}
         read = {symbol: abs(force / group.per_mm) for symbol, force in named.items() if force is not None}
@@ -163,18 +153,17 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
     return ForceState(known, tuple(groups), vectors, moments, per_mm)
 
 
-def _joints(cut: CutFree, forces: Found, moments: dict[Symbol, float]) -> None:
-    """The forces of all joints, each with both links, and their couples (N m), from those of pins and sliding pairs.
-    """
-    names = cut.drawn
-    for joint in (joint for joint in names.joints if joint.kind == "turning"):
-        force = cut.at_pin(joint.point, joint.second)
-        forces[names.between(joint.first, joint.second, joint.point)] = force, (joint.first, joint.second)
-    for slide in names.structure.slides:
-        force, couple = cut.slides[slide.key]
-        forces[names.of_slide(slide)] = force, slide.links
-        if not slide.higher:
-            moments[names.of_slide(slide, "M")] = couple
+def _of_joints(cut: CutFree) -> Iterator[ForceVector]:
+    """The forces and couples of all joints, from those of pins and sliding pairs."""
+    for joint in cut.drawn.joints:
+        if joint.kind == "turning":
+            force = cut.at_pin(joint.point, joint.second)
+            yield ForceVector(joint.symbol("F"), link=joint.second, off=joint.first, force=force)
+        else:
+            of_slide, couple = cut.slides[joint.slide]
+            yield of_slide
+            if joint.couple:
+                yield couple
 
 
 def held_by_pairs(sheet: Sheet) -> Sheet:

@@ -15,7 +15,7 @@ Forces are complex numbers in N while they are found; each is taken off the poly
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -95,7 +95,7 @@ class CutFree:
     per_mm: float
     acting: defaultdict[str, list[ForceVector]] = field(default_factory=lambda: defaultdict(list))
     pins: defaultdict[tuple[str, str], complex] = field(default_factory=lambda: defaultdict(complex))
-    slides: dict[str, tuple[complex, float]] = field(default_factory=dict)
+    slides: dict[str, tuple[ForceVector, ForceVector]] = field(default_factory=dict)
     balances: list[ForceVector] = field(default_factory=list)
     done: set[str] = field(default_factory=set)
     hung: list[tuple[str, list[str], list[ForceVector]]] = field(default_factory=list)
@@ -251,9 +251,9 @@ class CutFree:
 
     def set_slide(self, slide: Pair, force: ForceVector, couple: ForceVector, inside: Collection[str]) -> None:
         """The force and the couple of a sliding pair on one of its links; both load the other, if that comes later."""
-        self.slides[slide.key] = force.on(slide.a).force, couple.on(slide.a).moment
-        for acting in (force, couple):
-            self.hand_on(acting.on(slide.a), inside)
+        self.slides[slide.key] = force.on(slide.a), couple.on(slide.a)
+        for acting in self.slides[slide.key]:
+            self.hand_on(acting, inside)
 
     # moments
 
@@ -575,11 +575,6 @@ def at_driver(cut: CutFree, element: Driven) -> ForceGroup:
 # a larger group
 
 
-Unknown = tuple[ForceVector, str, Pair | None]
-"""A force along the direction of a vector, or a couple where that has none, on its link, its opposite on the other; and
-the point of its pin, or its sliding pair."""
-
-
 def of_larger_group(cut: CutFree, group: LargerGroup) -> ForceGroup:
     """The forces of a group larger than a dyad, or of one that a balance holds otherwise than by a driven link.
 
@@ -589,17 +584,46 @@ def of_larger_group(cut: CutFree, group: LargerGroup) -> ForceGroup:
     """
     cut.begin(group.links, group.kind, "drawn system", group.members)
     cut.do(ForceStep("read", "system", "force", links=group.links))
-    unknowns = _unknown_forces(cut, group)
-    values = _solved(cut, group.members, unknowns)
-    _carry_over(cut, group.members, unknowns, values)
+    drawn, inside = cut.drawn, {*group.members}
+    pins = [*_pin_forces(cut, inside)]
+    slides = [s for s in drawn.structure.slides if s.key not in cut.slides and {s.a, s.b} & inside]
+    balances = [drawn.balance(driver) for driver in group.drivers]
+    # along both axes at each pin, one square to the guide and a couple at each sliding pair, and what balances
+    unknowns = [changed(force, force=along) for _, force in pins for along in (1 + 0j, 1j)]
+    for slide in slides:
+        at, square = drawn.foot(slide), 1j * drawn.along(slide)
+        force = ForceVector(drawn.of_slide(slide), link=slide.a, force=square, at=at, off=slide.b)
+        unknowns += [force, changed(force, symbol=drawn.of_slide(slide, "M"), force=0j, moment=1.0)]
+    found = iter(_solved(cut, group.members, [*unknowns, *balances]))
+    forces = list[ForceVector]()
+    for point, pin in pins:
+        forces.append(changed(pin, force=next(found).force + next(found).force))
+        cut.pins[point, pin.link] += forces[-1].force
+        if pin.off:
+            cut.pins[point, pin.off] -= forces[-1].force
+    for slide in slides:
+        force, couple = next(found), next(found)
+        cut.set_slide(slide, force, couple, inside)
+        cut.shift(force, couple.moment)
+        forces.append(force)
+    for balance, acting in zip(balances, found, strict=True):
+        cut.set_balance(balance, acting, inside)
+        forces += [acting] if acting.symbol.is_vector else []
+    polygons: dict[str, Chain] = {name: [] for name in group.members}
+    for name, chain in polygons.items():
+        cut.lay_known(chain, (name,))
+    for acting in (acting for force in forces for acting in (force, force.back) if acting.link in polygons):
+        cut.lay(polygons[acting.link], changed(acting, by="closing"))
+    for name, chain in polygons.items():
+        if name not in drawn.structure.blocks:
+            cut.inside((name,), chain)
     return cut.finished(group.members)
 
 
-def _unknown_forces(cut: CutFree, group: LargerGroup) -> list[Unknown]:
-    """The unit forces and couples of a group: two along the axes at each pin, one square to the guide and a couple at
-    each sliding pair, and what balances."""
-    unknowns, inside, structure = list[Unknown](), set(group.members), cut.drawn.structure
-    for point, holders in structure.hinges.items():
+def _pin_forces(cut: CutFree, inside: Collection[str]) -> Iterator[tuple[str, ForceVector]]:
+    """The forces of each pin on the links of a group ``inside``, of no size yet: on all where the frame or links still
+    to come hold the pin, else on all but the first, on which the opposites act."""
+    for point, holders in cut.drawn.structure.hinges.items():
         mine = [n for n in holders if n in inside]
         if not mine:
             continue
@@ -608,20 +632,12 @@ def _unknown_forces(cut: CutFree, group: LargerGroup) -> list[Unknown]:
         first = next(n for n in mine if n not in hosts)
         at, other = cut.drawn.point(first, point), "" if held else first
         for link in (n for n in mine if held or n != first):
-            symbol = cut.drawn.of_pin(point, link, cut.done | inside)
-            force = ForceVector(symbol, link=link, at=at, off=hosts.get(link, other))
-            unknowns += [(changed(force, force=along), point, None) for along in (1 + 0j, 1j)]
-    for slide in structure.slides:
-        if slide.key not in cut.slides and {slide.a, slide.b} & inside:
-            at, square = cut.drawn.foot(slide), 1j * cut.drawn.along(slide)
-            force = ForceVector(cut.drawn.of_slide(slide), link=slide.a, force=square, at=at, off=slide.b)
-            couple = changed(force, symbol=cut.drawn.of_slide(slide, "M"), force=0j)
-            unknowns += [(force, "", slide), (couple, "", slide)]
-    return unknowns + [(cut.drawn.balance(driver), "", None) for driver in group.drivers]
+            symbol = cut.drawn.of_pin(point, link, cut.done.union(inside))
+            yield point, ForceVector(symbol, link=link, at=at, off=hosts.get(link, other))
 
 
-def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -> list[float]:
-    """Sizes of the unknowns, N and N m."""
+def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[ForceVector]) -> list[ForceVector]:
+    """The unknown forces and couples, of size 1, with their sizes."""
     mm, size = cut.drawn.mm, cut.drawn.sheet.scene.size
     row = {name: 3 * i for i, name in enumerate(members)}
     about = {name: cut.drawn.sheet.poses[name].origin for name in members}
@@ -632,11 +648,11 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -
         return load.force.real, load.force.imag, arm + load.moment / size
 
     left, right = np.zeros((3 * len(members), len(unknowns))), np.zeros(3 * len(members))
-    for k, (load, _, _) in enumerate(unknowns):
-        couple = changed(load, moment=0.0 if load.force else size)
+    columns = [changed(load, moment=load.moment * size) for load in unknowns]
+    for k, load in enumerate(columns):
         for link, sign in ((load.link, 1.0), (load.off, -1.0)):
             if link in row:
-                left[row[link] : row[link] + 3, k] += sign * np.array(parts(couple, link))
+                left[row[link] : row[link] + 3, k] += sign * np.array(parts(load, link))
     for link, i in row.items():
         for load in cut.on((link,)):
             right[i : i + 3] -= parts(load, link)
@@ -645,40 +661,5 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown]) -
     solution = np.linalg.solve(left, right)
     solution += np.linalg.solve(left, right - left @ solution)  # a second pass takes back the rounding of the first
     solution[abs(solution) <= ROUNDING * np.abs(solution).sum()] = 0.0
-    return [float(v * (1.0 if load.force else size)) for v, (load, _, _) in zip(solution, unknowns, strict=True)]
-
-
-def _carry_over(
-    cut: CutFree, members: Sequence[str], unknowns: Sequence[Unknown], values: Sequence[float]
-) -> None:
-    """Put what was found (N, N m) to the pairs, and draw the polygon of each link."""
-    forces: dict[tuple[Symbol, str, str], Unknown] = {}
-    couples: dict[str, ForceVector] = {}
-    for (load, point, slide), value in zip(unknowns, values, strict=True):
-        if load.force:
-            key = load.symbol, load.link, load.off
-            so_far = forces[key][0].force if key in forces else 0j
-            forces[key] = changed(load, force=so_far + value * load.force), point, slide
-        elif slide is not None:
-            couples[slide.key] = changed(load, moment=value)
-        else:
-            cut.set_balance(load, changed(load, moment=value), members)
-    polygons: dict[str, Chain] = {name: [] for name in members}
-    for name in members:
-        cut.lay_known(polygons[name], (name,))
-    for load, point, slide in forces.values():
-        if point:
-            cut.pins[point, load.link] += load.force
-            if load.off:
-                cut.pins[point, load.off] -= load.force
-        elif slide is not None:
-            cut.set_slide(slide, load, couples[slide.key], members)
-            cut.shift(load, couples[slide.key].moment)
-        else:
-            cut.set_balance(load, load, members)
-        for force in (load, load.back):
-            if force.link in polygons:
-                cut.lay(polygons[force.link], changed(force, by="closing"))
-    for name, chain in polygons.items():
-        if name not in cut.drawn.structure.blocks:
-            cut.inside((name,), chain)
+    return [changed(load, force=value * load.force, moment=value * load.moment)
+            for value, load in zip(solution.tolist(), columns, strict=True)]

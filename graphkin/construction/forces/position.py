@@ -141,17 +141,20 @@ class DrawnPosition:
         """The balancing load in place of a driver, of size 1: the scene's own, else a moment where it turns and a force
         along the guide where it slides."""
         scene = self.structure.scene
-        said, frame = scene.loading.balance, scene.frame.name
-        if said is not None and said.is_force:
-            along = said.turn * (self.sheet.poses[said.link].axis if said.follows else 1.0)
-            symbol, at = Symbol("F", link=said.link), self.place(said.link, said.at)
-            return ForceVector(symbol, link=said.link, force=along, at=at, off=frame)
-        if said is not None or driver.turns:
-            link, other = (driver.link, driver.relative_to) if said is None else (said.link, frame)
-            return ForceVector(Symbol("M", link=link), link=link, moment=1.0, off=other)
-        slide = self.structure.slide(driver.key)
+        if scene.loading.balance is not None:
+            return replace(self.load(scene.loading.balance, 1.0), off=scene.frame.name)
         symbol = balance_of(scene, driver)
+        if driver.turns:
+            return ForceVector(symbol, link=driver.link, moment=1.0, off=driver.relative_to)
+        slide = self.structure.slide(driver.key)
         return ForceVector(symbol, link=slide.a, force=self.along(slide), at=self.foot(slide), off=slide.b)
+
+    def load(self, load: LoadOn, size: float) -> ForceVector:
+        """A load of a size (N, N m), its direction from the drawn links."""
+        if not load.is_force:
+            return ForceVector(load.symbol, link=load.link, moment=size)
+        force = size * load.turn * (self.sheet.poses[load.follows].axis if load.follows else 1.0)
+        return ForceVector(load.symbol, link=load.link, force=force, at=self.place(load.link, load.at))
 
     def slip(self, slide: Pair) -> tuple[float, float]:
         """The sliding velocity along the guide, and the greatest speed that leads to it (m/s)."""
@@ -300,20 +303,17 @@ def from_outside(
     made: list[ForceVector] = []
     for mass in loading.masses:
         link, read = mass.link, inertias[mass.link]
-        made.append(ForceVector(Symbol("Fi", link=link), link=link, force=read.force, at=read.centre))
-        if loading.gravity:
-            weight = mass.mass * loading.gravity
-            made.append(ForceVector(Symbol("G", link=link), link=link, force=weight, at=read.centre))
+        forces = {"Fi": read.force, "G": mass.mass * loading.gravity}
+        made += (ForceVector(Symbol(kind, link=link), link=link, force=force, at=read.centre)
+                 for kind, force in forces.items() if kind == "Fi" or loading.gravity)
         made.append(ForceVector(Symbol("Mi", link=link), link=link, moment=read.moment))
     for load in loading.loads:
-        acts = sheet.acting[load.name]
-        on = with_edges if acts is None else acts
-        symbol = Symbol("P", name=load.name, turning=not load.is_force)
-        if load.is_force:
-            force = _force(sheet, growing, load) if on else 0j
-            made.append(ForceVector(symbol, link=load.link, force=force, at=drawn.place(load.link, load.at)))
-        else:
-            made.append(ForceVector(symbol, link=load.link, moment=load.size if on else 0.0))
+        acting, acts = drawn.load(load, load.size), sheet.acting[load.name]
+        if not (with_edges if acts is None else acts):
+            acting = replace(acting, force=0j, moment=0.0)
+        elif load.against:
+            acting = replace(acting, force=_against(growing, load))
+        made.append(acting)
     made += (force for step in springs for force in step.acting)
     return tuple(sorted(made, key=lambda load: not load.symbol.is_vector))
 
@@ -329,16 +329,14 @@ def spring_read(drawn: DrawnPosition, spring: SpringOn, hand: Instrument) -> For
         raise Unsolvable("dead point", Problem(spring.where, *said))
     length = hand.read(size) / drawn.mm
     force = spring.pull(length) * unit(end - start)
-    symbol, (link, other) = Symbol("P", name=spring.name), spring.links
-    acting = (ForceVector(symbol, link=link, force=force, at=start),
-              ForceVector(symbol, link=other, force=-force, at=end, turned=True))
+    link, other = spring.links
+    acting = (ForceVector(spring.symbol, link=link, force=force, at=start),
+              ForceVector(spring.symbol, link=other, force=-force, at=end, turned=True))
     return ForceStep("read", "spring", "force", link=link, acting=acting, length=length)
 
 
-def _force(sheet: Sheet, growing: Sheet, load: LoadOn) -> complex:
-    """A force load (N), its direction from the drawn links."""
-    if load.against:
-        drawn, slide = DrawnPosition(growing), growing.structure.slide(load.against)
-        slip, most = drawn.slip(slide)
-        return 0j if abs(slip) <= STILL * most else -load.size * math.copysign(1.0, slip) * drawn.along(slide)
-    return load.size * load.turn * (sheet.poses[load.follows].axis if load.follows else 1.0)
+def _against(growing: Sheet, load: LoadOn) -> complex:
+    """A force load (N) opposite to the sliding velocity of its pair; 0 where that rests."""
+    drawn, slide = DrawnPosition(growing), growing.structure.slide(load.against)
+    slip, most = drawn.slip(slide)
+    return 0j if abs(slip) <= STILL * most else -load.size * math.copysign(1.0, slip) * drawn.along(slide)
