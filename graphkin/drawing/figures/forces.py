@@ -361,7 +361,7 @@ def _middle(sheet: Sheet, link: str) -> complex:
     mass = next((m for m in sheet.scene.loading.masses if m.link == link), None)
     points, pose = sheet.structure.links[link].points.values(), sheet.poses[link]
     at = added_up(points, 0j) / max(1, len(points)) if mass is None else mass.at
-    return pose.origin + pose.axis * at / sheet.scales.length
+    return pose.place(at / sheet.scales.length)
 
 
 def _arms(plate: Plate, stage: ForceStage, times: float) -> None:
@@ -385,7 +385,7 @@ its panel at least (mm, y down)."""
 def _polygons(group: ForceGroup) -> list[_Polygon]:
     """The polygons of a group that are drawn separately."""
     closing: list[ForceVector] = []
-    alone: list[tuple[tuple[str, ...], Sequence[ForceVector]]] = []
+    alone: list[tuple[tuple[str, ...], Sequence[ForceVector], Sequence[ForceVector]]] = []
     drawn = {frozenset((v.symbol.link, v.symbol.other)): {v.tail, v.tip} for v in group.polygon if v.symbol.other}
     for links, vectors in group.inner.items():
         if group.polygon and vectors[:-1] == group.polygon[: len(vectors) - 1]:
@@ -393,10 +393,10 @@ def _polygons(group: ForceGroup) -> list[_Polygon]:
             there = drawn.get(frozenset((last.symbol.link, last.symbol.other)))
             closing += [last] if there != {last.tail, last.tip} and abs(last.span) > SHORT else []
         elif any(abs(v.span) > SHORT for v in vectors):
-            alone.append((links, vectors))
-    made = [((), group.polygon, closing)] if group.polygon else []
+            alone.append((links, vectors, ()))
+    whole = [((), group.polygon, closing)] if group.polygon else []
     return [(links, vectors, inside, _box((*vectors, *inside)).grown(AROUND))
-            for links, vectors, inside in (*made, *((links, vectors, ()) for links, vectors in alone))]
+            for links, vectors, inside in (*whole, *alone)]
 
 
 def _box(vectors: Sequence[ForceVector]) -> Box:

@@ -76,9 +76,9 @@ def _page(page: FigurePage, plan: TrainPlan, steps: Steps) -> Drawing:
     told = {layer: (Group(things, step=last),) for layer, things in read.piece.layers.items()}
     body = column(page.prose(why), *lines, row(replace(read, piece=Piece(told)), scale, gap=4.0), gap=GAP)
     size, speed = plan.length / sheet.scene.units.metres, plan.speed / sheet.scene.units.rates.metres
-    scales = {"length": size, plan.order: speed, "omega" if velocity else "alpha": plan.turning}
-    kind, unit = _rates(plan)
-    angular: Words = sign("μ", rate(kind, "")) + f" = {number(plan.turning)} ({unit})/mm"
+    scales = {"length": size, plan.order: speed, plan.rate: plan.turning}
+    unit = _unit(plan)
+    angular: Words = sign("μ", rate(plan.rate, "")) + f" = {number(plan.turning)} ({unit})/mm"
     if page.convention in ("us", "british"):
         times, head = (1, "1 mm") if page.convention == "us" else (10, "1 cm")
         angular = f"{head} = {number(times * plan.turning)} {unit}"
@@ -90,10 +90,9 @@ def _page(page: FigurePage, plan: TrainPlan, steps: Steps) -> Drawing:
     )
 
 
-def _rates(plan: TrainPlan) -> tuple[str, str]:
-    """The kind of the rates of a plan, and their unit."""
-    kind = "omega" if plan.order == "velocity" else "alpha"
-    return kind, Units().of(KINDS[kind].measure).written
+def _unit(plan: TrainPlan) -> str:
+    """The unit of the rates of a plan."""
+    return Units().of(KINDS[plan.rate].measure).written
 
 
 def _train(page: FigurePage, plan: TrainPlan, k: int, steps: Steps) -> Block:
@@ -169,7 +168,7 @@ def _pole(plan: TrainPlan) -> str:
 
 def _rate_scale(sheet: Sheet, plan: TrainPlan, steps: Steps) -> Piece:
     """Parallels to the lines through the pole, which stands at 0, down to the scale."""
-    plate, deep, (kind, _) = Plate(), -1j * plan.pole, _rates(plan)
+    plate, deep = Plate(), -1j * plan.pole
     shown = _plan_lines(sheet, plan)
     feet = [0.0, *map(foot, shown)]
     plate.line("construction", min(feet) - 4.0 + deep, max(feet) + 4.0 + deep, strokes.OUTLINE)
@@ -186,7 +185,7 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan, steps: Steps) -> Piece:
         plate.put("construction", tick, step=read_in[line.link])
         marked.setdefault(round(foot(line), 2), []).append(line.link)
     for x, links in marked.items():
-        names = rich(spaced(", ", (rate(kind, link) for link in links)), 3.0)
+        names = rich(spaced(", ", (rate(plan.rate, link) for link in links)), 3.0)
         plate.name(names, x + deep - 1.2j, f"label-plan-rate-{'-'.join(links)}", toward=(-1.57,),
                    step=max(read_in[link] for link in links))
     return plate.piece
@@ -201,7 +200,7 @@ def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[RateStep]:
 
 def _table(page: FigurePage, plan: TrainPlan) -> Block:
     """The readings of the rate scale: mm, and the rate."""
-    (kind, unit), along, rows = _rates(plan), page.sheet.scene.units.of(plan.order), []
+    along, rows = page.sheet.scene.units.of(plan.order), []
     tried = {symbol.link for symbol, _ in plan.trial.found} if plan.trial else ()
     for line in _plan_lines(page.sheet, plan):
         read = on_paper(line.mm)
@@ -212,7 +211,7 @@ def _table(page: FigurePage, plan: TrainPlan) -> Block:
         rows.append((line.link, read, turning))
     rows += [(key, on_paper(step.mm), along.beside(number(step.value / along.si, 5)))
              for key, step in plan.travels.items()]
-    rates = rate(kind, "") + f", {unit}"
+    rates = rate(plan.rate, "") + f", {_unit(plan)}"
     heads: list[list[Words]] = [[word("plan link", each), "mm", rates] for each in languages(page.language)]
     return table(heads, rows, (0.2 * TABLE, 0.25 * TABLE, 0.55 * TABLE))
 
