@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import replace
 from decimal import Decimal
 from typing import NamedTuple
 
@@ -76,13 +75,12 @@ def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
     for turning in sorted(moving.values(), key=lambda t: (len(t.chain), t.link in bases)):
         error = centres.velocity_error(Symbol("omega", link=turning.link))
         nothing = abs(turning.omega) <= max(STILL * largest, min(error, SURE * largest))  # but rounding
-        if len(turning.chain) == 1 and (driver := _between_moving(centres, turning)) and not nothing:
-            if turning.link == driver.link:
-                told = _of_driver(centres, turning, driver)
-            else:  # from the driven link, through their common centre
-                told = _of_link(centres, rates, replace(turning, chain=driver.links), False)
-        else:
-            told = _of_link(centres, rates, turning, nothing) if len(turning.chain) > 1 else None
+        driver = None if nothing or len(turning.chain) > 1 else _between_moving(centres, turning)
+        chain, told = driver.links if driver else turning.chain, None
+        if driver and turning.link == driver.link:
+            told = _of_driver(centres, turning, driver)
+        elif len(chain) > 1:
+            told = _of_link(turning, chain[-2], rates[chain[-2]], _three(centres, *chain[-2:]), nothing)
         if told is None:
             rates[turning.link] = _Rate("0" if nothing else amount(turning.omega))
         else:
@@ -119,9 +117,9 @@ def _apart(first: complex, second: complex) -> str:
     return on_paper(mm if mm > TOGETHER else 0.0)
 
 
-def _three(centres: Centres, turning: Turning) -> tuple[Centre, Centre, Centre]:
+def _three(centres: Centres, known: str, name: str) -> tuple[Centre, Centre, Centre]:
     """The centres of a link's motion: its own, that of the link before it in its chain, and their common one."""
-    frame, name, known = centres.scene.frame.name, turning.link, turning.chain[-2]
+    frame = centres.scene.frame.name
     return centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
 
 
@@ -141,44 +139,32 @@ def _between_moving(centres: Centres, turning: Turning) -> Driver | None:
 def _of_driver(centres: Centres, turning: Turning, driver: Driver) -> tuple[_Rate, Phrase] | None:
     """The rate of a driven link from that of the driver, relative to another moving link, and its sentence.
 
-    Of links a and b: omega_a : omega_ab = P_ab P_b0 : P_a0 P_b0; where they slide on each other, v_ab = omega_a
-    P_a0 P_b0.
+    Of links a and b: omega_a : omega_ab = P_ab P_b0 : P_a0 P_b0, as of two links with the common centre P_b0; where
+    they slide on each other, v_ab = omega_a P_a0 P_b0.
     """
-    frame, units = centres.scene.frame.name, centres.scene.units.rates
-    new, its = (centres.of(link, frame) for link in driver.links)
-    common = centres.of(*driver.links).point
+    frame, units, both = centres.scene.frame.name, centres.scene.units.rates, "".join(driver.links)
+    new, common = (centres.of(link, frame) for link in driver.links)
+    if driver.turns:
+        relative, its = _Rate(amount(abs(driver.values[1]))), centres.of(*driver.links)
+        return None if its.point is None else _of_link(turning, both, relative, (new, its, common))
     assert new.point is not None
-    assert its.point is not None
-    near, sign = _apart(new.point, its.point), "-" * (turning.omega < 0.0)
-    gaps: dict[str, object] = {"link": turning.link, "known": "".join(driver.links), "centre": new.pair,
-                               "common": its.pair, "near": near}
-    if not driver.turns:
-        per_mm, speed = amount(centres.sheet.scales.length / units.metres), amount(abs(driver.values[1]) / units.metres)
-        rate = _Rate(sign + written.quotient(speed, written.product(near, per_mm), MOST), written.figures(near))
-        return rate, Phrase("centre from cylinder", **gaps, rate=printed(rate.size),
-                            scale=f"{printed(per_mm)} {units.length}/mm",
-                            speed=units.of("velocity").beside(printed(speed)))
-    if common is None:
-        return None
-    far, relative = _apart(common, its.point), amount(abs(driver.values[1]))
-    carried = min(MOST, written.figures(near, far))
-    rate = _Rate(sign + written.quotient(written.product(relative, far), near, carried), carried)
-    same = dot(common - its.point, new.point - its.point) >= 0.0
-    key = "centre same sense" if same else "centre opposite sense"
-    return rate, Phrase(key, **gaps, known_centre=centres.of(*driver.links).pair, far=far,
-                        rate=printed(rate.written))
+    assert common.point is not None
+    near, sign = _apart(new.point, common.point), "-" * (turning.omega < 0.0)
+    per_mm, speed = amount(centres.sheet.scales.length / units.metres), amount(abs(driver.values[1]) / units.metres)
+    rate = _Rate(sign + written.quotient(speed, written.product(near, per_mm), MOST), written.figures(near))
+    return rate, Phrase("centre from cylinder", link=turning.link, known=both, centre=new.pair, common=common.pair,
+                        near=near, rate=printed(rate.size), scale=f"{printed(per_mm)} {units.length}/mm",
+                        speed=units.of("velocity").beside(printed(speed)))
 
 
 def _of_link(
-    centres: Centres, rates: Mapping[str, _Rate], turning: Turning, nothing: bool
+    turning: Turning, before: str, known: _Rate, three: tuple[Centre, Centre, Centre], nothing: bool = False
 ) -> tuple[_Rate, Phrase]:
-    """The rate of a link, computed from the rate before it and the distances as they are written (0 where it is
-    rounding alone, below ``nothing``), and its sentence."""
-    new, its, common = _three(centres, turning)
-    known, sign = rates[turning.chain[-2]], "-" * (turning.omega < 0.0)
+    """The rate of a link, computed from the ``known`` rate of the link ``before`` it and the distances as they are
+    written (0 where it is rounding alone, ``nothing``), and its sentence."""
+    (new, its, common), sign = three, "-" * (turning.omega < 0.0)
     gaps: dict[str, object] = {
-        "link": turning.link, "known": turning.chain[-2], "common": common.pair, "known_centre": its.pair,
-        "centre": new.pair,
+        "link": turning.link, "known": before, "common": common.pair, "known_centre": its.pair, "centre": new.pair,
     }
     if new.point is None:  # it only translates
         key = "centre slides otherwise" if common.point is None else "centre slides"
@@ -217,7 +203,7 @@ def _of_point(centres: Centres, rates: Mapping[str, _Rate], symbol: Symbol) -> P
     if centre.point is None:
         if len(turning.chain) < 2:
             return None
-        _, centre, common = _three(centres, turning)
+        _, centre, common = _three(centres, *turning.chain[-2:])
         link, end, at = turning.chain[-2], common.pair, common.point
     if centre.point is None or at is None or (length := _apart(at, centre.point)) == "0":
         return None
