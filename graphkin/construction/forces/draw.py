@@ -212,7 +212,7 @@ def _levers(sheet: Sheet, state: ForceState, hand: Instrument) -> Iterator[Lever
         images = DrawnPosition(drawn)
         balance = images.balance(driver)
         per_mm = drawn.scales.velocity
-        ends = {str(ref): TURN * z * per_mm for ref, z in drawn.ends["velocity"].items()}
+        ends = {ref: TURN * z * per_mm for ref, z in drawn.ends["velocity"].items()}
         # the forces with their places on the figure from which the images are
         times = sheet.scales.length / drawn.scales.length
         rows = tuple(_on_lever(images, changed(load, at=load.at * times), hand) for load in state.known)

@@ -24,7 +24,7 @@ from graphkin.construction.board.steps import (
 )
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import LinkMass
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, about, listed
 
 Way = Literal["polygon", "driver", "drawn system"]
@@ -332,7 +332,7 @@ class Lever:
 
     per_mm: float
     virtual: bool
-    ends: Mapping[str, complex]
+    ends: Mapping[PointRef, complex]
     rows: tuple[MomentTerm, ...]
     unknown: MomentTerm
     value: float

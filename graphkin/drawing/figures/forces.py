@@ -52,7 +52,7 @@ from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up, unit
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, bodies_named, languages, rich_text, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
 from graphkin.words.written import printed
@@ -516,12 +516,11 @@ def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Pie
     """The turned polygon with the forces on it, at a scale (m/s for one mm)."""
     plate, letters, convention = Plate(), page.letters, page.convention
     ends: dict[complex, list[RichText]] = {}
-    for name, velocity in lever.ends.items():
+    for ref, velocity in lever.ends.items():
         end = velocity / per_mm
-        point, _, link = name.partition("@")
-        if abs(end) > SEEN and (not link or link in page.sheet.scene.by_name):
-            written_ = letters.end("velocity", PointRef(point, link)) or letters.point(point)
-            ends.setdefault(complex(round(end.real, 2), round(end.imag, 2)), []).append(written_)
+        if abs(end) > SEEN and (not ref.link or ref.link in page.sheet.scene.by_name):
+            letter = letters.end("velocity", ref) or letters.point(ref.point)
+            ends.setdefault(complex(round(end.real, 2), round(end.imag, 2)), []).append(letter)
     for end, names in ends.items():
         plate.line("velocity", 0j, end, strokes.RELATIVE)
         plate.circle("velocity", end, 0.5, strokes.BLACK)
