@@ -19,7 +19,7 @@ from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from tests.construction.test_forces import BLOCK_ON_A_COMPOUND_HINGE, CHAIN, DRIVEN_AGAINST_A_BLOCK
 from tests.mechanisms import random_scene
-from tests.scenes import slider_crank
+from tests.scenes import four_bar, slider_crank
 from tests.solver.test_forces import loaded
 
 pytestmark = pytest.mark.quick
@@ -47,6 +47,16 @@ def test_steps_of_forces_are_numbered_in_order_after_those_of_the_motion(scene: 
     sheet = drawn(scene)
     first = sheet.steps[-1].number + 1
     assert [*range(first, first + len(steps_of(sheet)))] == [step.number for step in steps_of(sheet)]
+
+
+def test_a_force_between_two_groups_has_the_scale_of_the_polygon_that_gave_it() -> None:
+    scene = four_bar(70, 140, 110, 180, loads={
+        "P": {"on": "2", "at": [30, 5], "force": 20, "angle": 30},
+        "Q": {"on": "1", "at": [30, 9], "force": 1e7, "angle": 80}})
+    (state,) = drawn(scene | {"links": dict(reversed(scene["links"].items()))}).forces
+    first, last = (group.per_mm for group in state.groups)
+    between, of_frame = (state.per_mm[Symbol("F", link=link, other="1")] for link in "24")
+    assert first == between < last == of_frame
 
 
 def test_where_a_load_ends_groups_that_it_does_not_change_keep_the_numbers_of_their_steps() -> None:
