@@ -198,7 +198,13 @@ def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
 
 
 def _positions(drawn: Drawn) -> tuple[Any, ...]:
-    shown = shown_positions(drawn.whole, named_positions(drawn.mechanism))
+    scene, values = drawn.mechanism, named_positions(drawn.mechanism)
+    try:
+        shown = shown_positions(drawn.whole, values)
+    except Unsolvable:
+        for value in values.values():
+            solved_here(scene, {**drawn.checked.sheet.drivers, scene.drivers[0].key: value})
+        raise
     return shown.own, shown
 
 
@@ -226,8 +232,9 @@ def _beside(drawn: Drawn) -> tuple[Any, ...]:
             with suppress(ValueError):
                 at = float(name)
         values = {**drawn.checked.sheet.drivers, **(driver_values(scene, at) or {})}
+        motion = solved_here(structure, values, asked)
         sheet = execute(plan(structure, values, asked))
-        report_on(sheet, solved_here(structure, values, asked)).must_agree()
+        report_on(sheet, motion).must_agree()
         sheets.append((name, sheet))
     return sheets[0][1], sheets
 

@@ -15,7 +15,9 @@ from graphkin.drawing.ink.primitives import Group, Line, Text, on_page, walk
 from graphkin.drawing.place.piece import obstacles_of
 from graphkin.drawing.text import text_box
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.errors import Unsolvable
 from graphkin.papers.pictures import bare_picture
+from graphkin.scene import Scene
 from tests.mechanisms import floating_cylinder, redriven
 
 FOUR_BAR = graphkin.read("fourbar-150-500-300-400").to_dict() | {"positions": {"count": 4, "first": 0}}
@@ -102,6 +104,24 @@ def words_of(drawn: Drawn) -> str:
 def test_limits_that_there_are_not_are_said_not_to_be(language: str, said: str) -> None:
     drawn = graphkin.draw(limits_alone("4"), figures=["positions"], language=language)
     assert said in words_of(drawn)
+
+
+@pytest.fixture
+def parallelogram() -> Scene:
+    """Two cranks of 150 on a frame of 400, whose links lie in line twice a turn."""
+    scene = graphkin.read("fourbar-150-500-300-400").replace("links.2.length", 400)
+    return scene.replace("links.3.length", 150)
+
+
+def test_positions_are_drawn_of_a_crank_that_passes_a_change_point(parallelogram: Scene) -> None:
+    assert "γ" not in words_of(graphkin.draw(parallelogram, figures=["positions"], language="en"))
+
+
+def test_a_named_position_in_a_change_point_is_called_a_dead_point(parallelogram: Scene) -> None:
+    scene = parallelogram.replace("positions", {"count": 4, "first": 0})
+    for figure in ("positions", "polygons"):
+        with pytest.raises(Unsolvable, match="dead point: links 2, 3 have BC and CD in line"):
+            graphkin.draw(scene, figures=[figure]).figures[figure]
 
 
 def test_the_angle_at_which_a_driver_stops_has_the_minus_sign_of_print() -> None:

@@ -202,7 +202,10 @@ def _least(
         step /= 2
         near = ((value, turn.near(value, best.poses)) for value in (best.value - step, best.value + step))
         best = min([best, *(LimitPosition(value, poses) for value, poses in near if poses)], key=gamma)
-    sheet = drawn(best.value)
+    try:
+        sheet = drawn(best.value)
+    except Unsolvable:  # where the links of the group lie in line
+        return None
     inner = group.inner
     pose = sheet.poses[inner.a]
     at = pose.place(structure.links[inner.a].points[inner.point] / sheet.scales.length)
