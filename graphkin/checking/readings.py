@@ -176,6 +176,8 @@ def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place
         return _of_turn(sheet, symbol, instrument)
     if symbol.kind in ("x", "y", "d"):
         return _lengths(sheet, symbol, instrument, place)
+    if any(name in sheet.scene.by_name and name not in sheet.structure.links for name in symbol.links()):  # redundant
+        return None
     if symbol.kind == "s":
         slide = sliding_pair(sheet.structure.slides, symbol)
         if not {slide.a, slide.b} <= set(sheet.poses):

@@ -20,6 +20,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from graphkin.errors import CallError
+from graphkin.scene.model import PlacedLink
 from graphkin.scene.pairs import HigherPair, Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Dyad, Structure
@@ -80,21 +81,21 @@ def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Trans
         first, second = ({*body.links, *map(structure.scene.body_of, body.links)} for body in dyad.bodies)
         if (a in first and b in second) or (b in first and a in second):
             return joint_of_dyad(structure, dyad)
-    for point in (p for p in structure.links[a].points if p in structure.links[b].points):
-        first_arm, second_arm = (_arm(structure, name, point) for name in (a, b))
+    links = {**structure.scene.by_name, **structure.links}  # redundant ones too
+    for point in (p for p in links[a].points if p in links[b].points):
+        first_arm, second_arm = (_arm(structure, links[name], point) for name in (a, b))
         if first_arm and second_arm:
             return TransmissionAngle(first_arm, second_arm)
     raise CallError.of(str(symbol), "links and share no joint at which a", "name two links of one joint bars or",
                        name=a, other=b)
 
 
-def _arm(structure: Structure, name: str, point: str) -> Way | None:
+def _arm(structure: Structure, link: PlacedLink, point: str) -> Way | None:
     """The path's normal of a point of a link: along its bar, or square to the guide on which it slides."""
-    link = structure.links[name]
     others = [p for p in (*link.bar, *link.points) if p != point and link.points[p] != link.points[point]]
     if others:
-        return (name, link.points[others[0]]), (name, link.points[point])
-    slide = next((s for s in structure.slides if s.a == name), None)
+        return (link.name, link.points[others[0]]), (link.name, link.points[point])
+    slide = next((s for s in (*structure.slides, *structure.scene.slidings) if s.a == link.name), None)
     return ((slide.b, 0j), (slide.b, 1j * slide.guide.direction)) if slide else None
 
 

@@ -111,6 +111,34 @@ def test_a_pair_that_does_not_slide_is_refused_by_name() -> None:
         graphkin.check(FOUR_BAR, find=["s_2/1"])
 
 
+@pytest.fixture
+def slider_with_a_redundant_one() -> dict[str, object]:
+    """A slider-crank whose slider is held on its guide a second time, by a link 40 before it."""
+    return {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": "A", "angle": 0}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 30}, "2": {"points": ["B", "C"], "length": 80},
+            "3": {"points": ["C"], "on": "0.h", "at": {"E": [40, 0]}},
+            "4": {"points": ["E"], "on": "0.h", "redundant": True},
+        },
+        "driver": {"link": "1", "angle": 40, "omega": 3},
+    }
+
+
+@pytest.mark.parametrize("name", ["s_4/0", "stroke_4/0", "swing_4", "gamma_3-4"])
+def test_nothing_is_drawn_of_a_redundant_link(name: str, slider_with_a_redundant_one: dict[str, object]) -> None:
+    result = graphkin.check(slider_with_a_redundant_one, find=[name])
+    assert name not in [str(row.symbol) for row in result.report.rows]
+
+
+def test_a_redundant_slide_has_its_diagrams_and_its_transmission_angle(
+    slider_with_a_redundant_one: dict[str, object]
+) -> None:
+    assert "motion-slide-4-0" in graphkin.sweep(slider_with_a_redundant_one, positions=4).figures
+    solved = graphkin.solve(slider_with_a_redundant_one, find=["gamma_3-4"])
+    assert float(solved["gamma_3-4"][0]) == pytest.approx(90.0)
+
+
 def test_a_symbol_reads_as_it_is_written() -> None:
     names = [*EVERY, "v_C at 10", "s_B/3", "theta_lag_3", "ak_B@3/B@2", "d_P12/A at 7'"]
     assert names == [str(Symbol.parse(name)) for name in names]

@@ -164,8 +164,9 @@ def limits_asked(
         return _follower_limits(structure.scene.whole, asked, values)
     limits: dict[str, Limits] = {}
     turn: TurnOfCrank | None = None
+    redundant = structure.scene.by_name.keys() - structure.links.keys()
     for symbol in asked:
-        if symbol.scope != "turn" or symbol.pair in limits:
+        if symbol.scope != "turn" or symbol.pair in limits or not redundant.isdisjoint(symbol.links()):
             continue
         output = sliding_pair(structure.slides, symbol) if symbol.other else symbol.link
         if output == structure.scene.drivers[0].link:  # alone it turns on and on: other links may stop it

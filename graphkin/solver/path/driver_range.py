@@ -604,7 +604,7 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         why = reach.limit_why or Phrase("the motion does not repeat after one turn")
         raise _without(symbol, "belongs to a whole turn which the driver", WHERE_ELSE, why=why)
     if symbol.other:
-        sliding_pair(reach.structure.slides, symbol)
+        sliding_pair(reach.known.slides, symbol)
     pair = symbol.pair
     offsets, values, rests, turned = _turns(reach, symbol)
     if not symbol.other and abs(turned) > 1.0:
