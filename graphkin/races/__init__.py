@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
+from itertools import chain
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 __all__ = ["COUNT", "Entry", "Race", "race", "race_page", "race_table", "to_json"]
 
 COUNT = 100_800
+KINDS = "velocity", "acceleration"
 PEERS = "pylinkage", "scipy"
 """Other programs, by their names in ``PEERS_FILE``."""
 PEERS_FILE = Path(__file__).parents[2] / "tests" / "bench" / "raced_peers.py"
@@ -108,12 +110,12 @@ def _peer(name: str, work: Work, repeats: int) -> Iterator[Entry]:
 
 def race_table(race: Race) -> Table:
     """One row for each method; first the floor."""
-    numbers = ("velocity_cost_s", "velocity_error", "acceleration_cost_s", "acceleration_error")
-    rows: list[tuple[object, ...]] = [("copying", "", "floor", race.copying[0], None, race.copying[1], None)]
-    rows += [
-        (e.key, e.tag, e.family, e.velocity_cost, e.velocity_error, e.acceleration_cost, e.acceleration_error)
-        for e in race.entries
+    floor = Entry("closed", "copying", "", race.copying, (None, None))
+    rows = [
+        (e.key, e.tag, "floor" if e is floor else e.family, *chain(*zip(e.costs, e.errors, strict=True)))
+        for e in (floor, *race.entries)
     ]
+    numbers = [f"{kind}_{of}" for kind in KINDS for of in ("cost_s", "error")]
     return Table.of(("method", "tag", "family", *numbers), rows, ("", "", "", *(".3g" for _ in numbers)))
 
 
@@ -134,8 +136,8 @@ def to_json(race: Race) -> dict[str, Json]:
                 "tag": e.tag,
                 "family": e.family,
                 "says": _named(e, "en"),
-                "velocity": {"cost_s": e.velocity_cost, "error": e.velocity_error},
-                "acceleration": {"cost_s": e.acceleration_cost, "error": e.acceleration_error},
+                **{kind: {"cost_s": cost, "error": error}
+                   for kind, cost, error in zip(KINDS, e.costs, e.errors, strict=True)},
             }
             for e in race.entries
         ],
@@ -191,8 +193,8 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
             *_lines([facts], 24.0, LETTERS, 3.3),
             *_lines(_lessons(race, language), HEIGHT - BOTTOM + 16.0, 2.8, 3.8),
         )
-        for kind, left in (("velocity", LEFT), ("acceleration", LEFT + half + GAP)):
-            _draw(figure, race, kind, Box(left, TOP, left + half, HEIGHT - BOTTOM), language)
+        for order, left in enumerate((LEFT, LEFT + half + GAP)):
+            _draw(figure, race, order, Box(left, TOP, left + half, HEIGHT - BOTTOM), language)
 
     return ChartPage(
         WIDTH, HEIGHT, paint, title=f"{title}: {name}", desc=facts, lang=language,
@@ -205,7 +207,7 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
     quotient."""
 
     def times(entry: Entry, of: Entry) -> str:
-        return f"{entry.acceleration_cost / of.acceleration_cost:.3g}"
+        return f"{entry.costs[1] / of.costs[1]:.3g}"
 
     hands = sorted((e for e in race.entries if e.key == "by hand"), key=lambda e: float(e.tag))
     drawn, closed = race.of("exact drawing"), race.of("closed arrays")
@@ -213,9 +215,9 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
     if hands:
         usual, large = next((e for e in hands if e.tag == "1"), hands[0]), hands[-1]
         phrases.append(Phrase(
-            "speed lesson draw", minutes=f"{usual.acceleration_cost / 60:.2g}", error=f"{100 * usual.error:.2g}",
+            "speed lesson draw", minutes=f"{usual.costs[1] / 60:.2g}", error=f"{100 * usual.error:.2g}",
             size=usual.tag, large_error=f"{100 * large.error:.2g}", large_size=large.tag,
-            exact_time=f"{1e3 * drawn.acceleration_cost:.2g}", exact_error=f"{drawn.error:.1g}",
+            exact_time=f"{1e3 * drawn.costs[1]:.2g}", exact_error=f"{drawn.error:.1g}",
         ))
     phrases.append(Phrase("speed lesson compute", times=times(closed, drawn), error=f"{closed.error:.1g}"))
     steps = [e for e in race.entries if e.key == "differences"]
@@ -223,8 +225,7 @@ def lessons(race: Race) -> tuple[Phrase, ...]:
     newton = min(by_newton, key=lambda e: float(f"{e.error:.1g}"), default=None)
     if steps and newton is not None:
         single = race.of("closed single")
-        best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)
-                for kind in ("velocity_error", "acceleration_error")]
+        best = [min(e for e in errors if e is not None) for errors in zip(*(e.errors for e in steps), strict=True)]
         phrases.append(Phrase(
             "speed lesson lose", times=times(steps[0], closed),
             velocity=f"{best[0]:.1g}", acceleration=f"{best[1]:.1g}", single_times=times(single, closed),
@@ -248,17 +249,11 @@ def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> 
     return [Text(complex(LEFT - 12, y + k * step), runs) for k, runs in enumerate(lines)]
 
 
-def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, float]]:
-    """Entries with a value of this kind, with cost and error."""
-    of_kind = ((e, getattr(e, f"{kind}_cost"), getattr(e, f"{kind}_error")) for e in entries)
-    known = ((e, cost, error) for e, cost, error in of_kind if error is not None and isfinite(error))
-    return [(e, cost, max(error, LOWEST * 1.5)) for e, cost, error in known]
-
-
-def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> None:
-    points = _points(race.entries, kind)
-    costs = [c for _, c, _ in points]
-    floor = race.copying[kind == "acceleration"]
+def _draw(figure: Figure, race: Race, order: int, box: Box, language: str) -> None:
+    """Draw the chart of velocities, or of accelerations: a point for each method that gives them."""
+    known = ((e, e.costs[order], e.errors[order]) for e in race.entries)
+    points = [(e, c, max(error, LOWEST * 1.5)) for e, c, error in known if error is not None and isfinite(error)]
+    costs, floor, kind = [c for _, c, _ in points], race.copying[order], KINDS[order]
     title = f"{word(f'speed of {kind}', language)}: {word('largest error', language)}"
     axes = add_panel(figure, box, f"speed-{kind}", title, word("cost of a position", language))
     count_powers(axes, "x", min(floor, *costs) / 1.5, max(costs) * 1.5, most=14)

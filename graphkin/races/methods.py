@@ -43,8 +43,8 @@ def copy_time(work: Work, repeats: int) -> tuple[float, float]:
     target = np.empty_like(whole)
     half = 2 * len(work.outputs)
     pairs = (target[:half], whole[:half]), (target, whole)
-    quick, all_of = (best_time(partial(np.copyto, *pair), repeats) / work.count for pair in pairs)
-    return quick, all_of
+    quick, whole = (best_time(partial(np.copyto, *pair), repeats) / work.count for pair in pairs)
+    return quick, whole
 
 
 # the closed form
@@ -52,7 +52,7 @@ def copy_time(work: Work, repeats: int) -> tuple[float, float]:
 
 def columns_of(work: Work, kinds: str = "va") -> list[Symbol]:
     """Velocities ("v"), accelerations ("a") and places ("z") of all outputs."""
-    return [Symbol("place" if kind == "z" else kind, o.ref) for kind in kinds for o in work.outputs]
+    return [Symbol("place" if kind == "z" else kind, ref) for kind in kinds for ref in work.outputs]
 
 
 def vectors(columns: Array) -> Array:
@@ -63,7 +63,7 @@ def vectors(columns: Array) -> Array:
 def _closed(work: Work, key: str, tag: str, columns: Array, costs: Sequence[float]) -> Entry:
     """The entry of columns with velocities first and accelerations after them."""
     values, half = vectors(columns), len(work.outputs)
-    return Entry("closed", key, tag, costs[0], costs[1], *work.errors(values[:half], values[half:]))
+    return Entry("closed", key, tag, costs, work.errors(values[:half], values[half:]))
 
 
 def _prepared(work: Work) -> tuple[PreparedMechanism, PreparedMechanism]:
@@ -142,9 +142,9 @@ def whole_solve(work: Work, repeats: int) -> Iterator[Entry]:
         return
     count = work.count // 10
     whole = best_time(lambda: solver.solve(work.scene, sweep=count), repeats) / count
-    v = np.array([work.motion.velocity(o.point, o.link)[work.rows] for o in work.outputs])
-    a = np.array([work.motion.acceleration(o.point, o.link)[work.rows] for o in work.outputs])
-    yield Entry("closed", "whole solve", "", whole, whole, *work.errors(v, a))
+    poses = [work.motion.posed.point(ref) for ref in work.outputs]
+    v, a = (np.array([getattr(pose, field)[work.rows] for pose in poses]) for field in "va")
+    yield Entry("closed", "whole solve", "", (whole, whole), work.errors(v, a))
 
 
 # the closure equations in numbers
@@ -198,7 +198,7 @@ def newton(work: Work, repeats: int) -> Iterator[Entry]:
     for steps in ITERATIONS:
         errors = work.errors(*numeric.points(rates(steps, numeric.before, numeric.values)))
         costs = [numeric.cost(partial(run, steps), repeats) for run in (speeds, rates)]
-        yield Entry("newton", "Newton", str(steps), costs[0], costs[1], *errors)
+        yield Entry("newton", "Newton", str(steps), costs, errors)
 
 
 def complex_step(work: Work, repeats: int) -> Iterator[Entry]:
@@ -217,7 +217,7 @@ def complex_step(work: Work, repeats: int) -> Iterator[Entry]:
     x, speed = run(numeric.before, numeric.values, True)
     v, a = numeric.points(Solution(x.real, x.imag / h, speed.imag / h))
     costs = [numeric.cost(partial(run, pushes=pushes), repeats) for pushes in (False, True)]
-    yield Entry("complex step", "complex step", "", costs[0], costs[1], *work.errors(v, a))
+    yield Entry("complex step", "complex step", "", costs, work.errors(v, a))
 
 
 def differences(work: Work, repeats: int) -> Iterator[Entry]:
@@ -226,7 +226,7 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
     if len(work.scene.drivers) > 1:
         return
     # a point under a pin is another one of its link at every moment: its places are no path
-    work = work.only([o for o in work.outputs if o.own])
+    work = work.only([ref for ref in work.outputs if not ref.link])
     closed = prepare(work.structure, columns_of(work, "z"))
     _, first, second = work.scene.drivers[0].values
     many = closed.range.grid(work.count).values
@@ -247,7 +247,7 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
     for k in STEPS:
         t = 10.0**-k * unit / abs(first)
         errors = work.errors(speeds(here, t), pushes(here, t))
-        yield Entry("differences", "differences", f"1e-{k}", quick, whole, *errors)
+        yield Entry("differences", "differences", f"1e-{k}", (quick, whole), errors)
 
 
 # drawn
@@ -265,8 +265,7 @@ def drawn(work: Work, repeats: int) -> Iterator[Entry]:
         hands: list[Instrument] = [pencil(tools, seed) for seed in range(SEEDS)]
         entry = _drawn(few, larger, "pencil", f"{factor:g}", hands, repeats)
         yield entry
-        quick, whole = (count * SECONDS for count in acts(larger[0]))
-        yield replace(entry, family="by hand", key="by hand", velocity_cost=quick, acceleration_cost=whole)
+        yield replace(entry, family="by hand", key="by hand", costs=[count * SECONDS for count in acts(larger[0])])
     asked = few.only(few.asked_outputs())
     short = [plan(work.scene, at, columns_of(asked)) for at in few.positions]
     yield _drawn(asked, short, "exact drawing", "asked", [EXACT], repeats)
@@ -296,12 +295,12 @@ def _drawn(work: Work, plans: Sequence[Plan], key: str, tag: str, hands: Sequenc
     worst: list[float | None] = [0.0, 0.0]
     for hand in hands:
         tables = [{r.symbol: r.value for r in read_off(execute(p, hand), (), hand)} for p in plans]
-        rows = ([[table.get(Symbol(kind, o.ref)) for table in tables] for o in work.outputs] for kind in "va")
+        rows = ([[table.get(Symbol(kind, ref)) for table in tables] for ref in work.outputs] for kind in "va")
         errors = work.errors(*map(_if_all, rows))
         worst = [None if w is None or e is None else max(w, e) for w, e in zip(worst, errors, strict=True)]
     whole = best_time(lambda: [read_off(execute(p, hands[0]), (), hands[0]) for p in plans], repeats) / len(plans)
     part = _velocity_share(execute(plans[0], EXACT))
-    return Entry("drawn", key, tag, whole * part, whole, worst[0], worst[1])
+    return Entry("drawn", key, tag, (whole * part, whole), worst)
 
 
 def instant_centres(work: Work, repeats: int) -> Iterator[Entry]:
@@ -309,14 +308,14 @@ def instant_centres(work: Work, repeats: int) -> Iterator[Entry]:
     few = work.some(EVERY)
     sheets = [execute(plan(work.scene, at, ())) for at in few.positions]
     found = [find_centres(work.scene, sheet.drivers, sheet=sheet) for sheet in sheets]
-    velocities = [[centres.velocity(Symbol("v", o.ref)) for centres in found] for o in few.outputs]
-    error = few.errors(_if_all(velocities), None)[0]
-    if error is None:
+    velocities = [[centres.velocity(Symbol("v", ref)) for centres in found] for ref in few.outputs]
+    errors = few.errors(_if_all(velocities), None)
+    if errors[0] is None:
         return
     cost = best_time(
         lambda: [find_centres(work.scene, sheet.drivers, sheet=sheet).turning for sheet in sheets], repeats
     ) / len(sheets)
-    yield Entry("drawn", "instant centres", "", cost, cost, error, None)
+    yield Entry("drawn", "instant centres", "", (cost, cost), errors)
 
 
 def _if_all(vectors: Sequence[Sequence[complex | float | None]]) -> Array | None:

@@ -35,44 +35,32 @@ PLACES = 24
 FINE = 720
 
 
-@dataclass(frozen=True)
-class ComparedPoint:
-    """A point of a link, or of ``link`` where it lies under that pin (not ``own``)."""
-
-    point: str
-    link: str
-    own: bool = True
-
-    @property
-    def ref(self) -> PointRef:
-        """Its name in a symbol."""
-        return PointRef(self.point) if self.own else PointRef(self.point, self.link)
-
-
-def compared_points(structure: Structure) -> tuple[ComparedPoint, ...]:
-    """Every moving point by the first moving link that has it, and the points of guides under sliding pins."""
+def compared_points(structure: Structure) -> tuple[PointRef, ...]:
+    """Every moving point, and the points of guides under sliding pins."""
     scene = structure.scene
-    fixed = scene.frame.points
-    points = [
-        ComparedPoint(p, link.name) for link in scene.links if not link.redundant for p in link.points if p not in fixed
-    ]
-    firsts = {o.point: o for o in reversed(points)}
-    unders = [
-        ComparedPoint(s.pin, s.b, False)
+    points = (PointRef(p) for link in scene.links if not link.redundant for p in link.points)
+    unders = (
+        PointRef(s.pin, s.b)
         for s in structure.slides
         if s.pin and s.b != scene.frame.name and s.b in scene.by_name and s.pin not in structure.links[s.b].points
-    ]
-    return (*dict.fromkeys(firsts[o.point] for o in points), *unders)
+    )
+    return (*dict.fromkeys(ref for ref in points if ref.point not in scene.frame.points), *unders)
 
 
-def point_rates(equations: Equations, solution: Solution, outputs: Sequence[ComparedPoint]) -> tuple[Array, Array]:
+def holder(scene: Mechanism, ref: PointRef) -> str:
+    """The link of a point: of a pin the first moving link that has it."""
+    moving = (link for link in scene.links if not link.redundant)
+    return ref.link or next(link.name for link in moving if ref.point in link.points)
+
+
+def point_rates(equations: Equations, solution: Solution, outputs: Sequence[PointRef]) -> tuple[Array, Array]:
     """Velocities and accelerations of points, as complex numbers of the kind in which the equations are solved, shape
     (outputs,) or (outputs, positions)."""
-    velocities, accelerations = [], []
-    for output in outputs:
-        places = equations.structure.links[output.link].points
-        local = places[output.point] if output.own else equations.under(solution, output.point, output.link)
-        _, _, vx, vy, ax, ay = equations.point(solution, output.link, local)
+    structure, velocities, accelerations = equations.structure, [], []
+    for ref in outputs:
+        link = holder(structure.scene, ref)
+        local = equations.under(solution, *ref) if ref.link else structure.links[link].points[ref.point]
+        _, _, vx, vy, ax, ay = equations.point(solution, link, local)
         velocities.append(vx + 1j * vy)
         accelerations.append(ax + 1j * ay)
     return np.array(velocities), np.array(accelerations)
@@ -90,7 +78,7 @@ class Work:
     """
 
     structure: Structure
-    outputs: tuple[ComparedPoint, ...]
+    outputs: tuple[PointRef, ...]
     motion: Motion
     rows: Array
     truth: Array
@@ -119,7 +107,7 @@ class Work:
         """Every n-th of the places alone."""
         return replace(self, rows=self.rows[::every], truth=self.truth[:, :, ::every])
 
-    def only(self, outputs: Sequence[ComparedPoint]) -> Work:
+    def only(self, outputs: Sequence[PointRef]) -> Work:
         """Some of the outputs alone."""
         kept = [self.outputs.index(o) for o in outputs]
         return replace(self, outputs=tuple(outputs), truth=self.truth[:, kept])
@@ -132,15 +120,15 @@ class Work:
             return self.scene.question.find
         group = next((e for e in self.structure.elements if isinstance(e, Dyad)), None)
         links = group.links if group is not None else tuple(self.structure.links)
-        first = next((o for o in self.outputs if o.link in links), self.outputs[0])
-        return Symbol("v", first.ref), Symbol("a", first.ref)
+        first = next((ref for ref in self.outputs if holder(self.scene, ref) in links), self.outputs[0])
+        return Symbol("v", first), Symbol("a", first)
 
-    def asked_outputs(self) -> tuple[ComparedPoint, ...]:
+    def asked_outputs(self) -> tuple[PointRef, ...]:
         """The asked outputs: points, or points of links whose turning is asked for."""
         refs = {ref for s in self.asked for ref in (s.of, s.to) if ref is not None}
         turning = {s.link for s in self.asked if s.link}
-        asked = tuple(o for o in self.outputs if o.ref in refs or (o.link in turning and o.own))
-        return asked or self.outputs
+        return tuple(ref for ref in self.outputs if ref in refs or (
+            not ref.link and holder(self.scene, ref) in turning)) or self.outputs
 
 
 def _error(right: Array, measured: Array | None) -> float | None:
@@ -202,25 +190,21 @@ Family = Literal["drawn", "closed", "newton", "differences", "complex step", "pe
 class Entry:
     """One method on the work.
 
-    Parameters
-    ----------
     key : its word, ``tag`` the difference from others of that word ("3" iterations, "1e-4" step, scale)
-    velocity_cost, acceleration_cost : s for a position, as far as velocities, and with accelerations
-    velocity_error, acceleration_error : the largest, in parts of the largest value; None where the method gives none
+    costs : s for a position, as far as velocities, and with accelerations
+    errors : the largest of velocities and of accelerations, in parts of the largest value; None where it gives none
     """
 
     family: Family
     key: str
     tag: str
-    velocity_cost: float
-    acceleration_cost: float
-    velocity_error: float | None
-    acceleration_error: float | None
+    costs: Sequence[float]
+    errors: Sequence[float | None]
 
     @property
     def error(self) -> float:
         """The larger of its errors, 0 where it gives none."""
-        return max(self.velocity_error or 0.0, self.acceleration_error or 0.0)
+        return max(error or 0.0 for error in self.errors)
 
 
 class Skipped(Exception):

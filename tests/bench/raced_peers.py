@@ -49,7 +49,7 @@ def pylinkage(work: Work, repeats: int) -> Iterator[Entry]:
         model = _Model(work)
         places, velocity, acceleration = _complex(model.linkage(FINE).step_fast_with_kinematics(FINE))
         rows = [_row(model, places, work, k) for k in range(len(work.values))]
-        outputs = [o for o in work.outputs if o.own and o.point in model.at]
+        outputs = [o for o in work.outputs if not o.link and o.point in model.at]
         own = work.only(outputs)
         columns = [model.at[o.point] for o in outputs]
         v = velocity[rows][:, columns].T
@@ -57,7 +57,7 @@ def pylinkage(work: Work, repeats: int) -> Iterator[Entry]:
         count = work.count
         linkage = model.linkage(count)
         cost = best_time(lambda: linkage.step_fast_with_kinematics(count), repeats) / count
-    yield Entry("peer", "pylinkage", "", cost, cost, *own.errors(v, a))
+    yield Entry("peer", "pylinkage", "", (cost, cost), own.errors(v, a))
 
 
 def _complex(found: Iterable[Array]) -> tuple[Array, Array, Array]:
@@ -257,7 +257,7 @@ def scipy_root(work: Work, repeats: int) -> Iterator[Entry]:
     first = [v[:1] for v in numeric.values]
     rates = best_time(lambda: numeric.equations.rates(places[:, :1], first, numeric.first, numeric.second), repeats)
     cost = best_time(lambda: one(0), repeats)
-    yield Entry("peer", "scipy root", "", cost + rates / 2, cost + rates, *work.errors(*numeric.points(solution)))
+    yield Entry("peer", "scipy root", "", (cost + rates / 2, cost + rates), work.errors(*numeric.points(solution)))
 
 
 PEERS = {"pylinkage": pylinkage, "scipy": scipy_root}
