@@ -136,11 +136,6 @@ class Column:
         return list(map(str, values.tolist()))
 
 
-def text_column(name: str, words: Iterable[object], form: str = "") -> Column:
-    """A column of words, English where they are phrases."""
-    return Column(name, np.array([str(word) for word in words], dtype=object), form=form)
-
-
 @dataclass(frozen=True)
 class Table:
     """Columns of the same length, in their order.

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from graphkin import table as room
 from graphkin.errors import CallError
-from graphkin.table import Column, Table, parquet_of_csv, table_of, table_of_csv, text_column
+from graphkin.table import Column, Table, as_array, parquet_of_csv, table_of, table_of_csv
 
 NUMBERS = [0.0, -0.0, 1.0, -1.5, 1e-6, 9.9e-7, 1e-5, 1 / 3, 1e10, 9999999999.5, 123456789012.3, 1e22, 5e-324, 3e-17]
 
@@ -29,8 +29,8 @@ def whole(n: int = 40) -> Table:
             Column("position", np.arange(n) + 1),
             Column("v_C.x", speed, "mm/s", "v_C"),
             Column("ok", np.arange(n) % 3 > 0),
-            text_column("why", [
-                ("", 'a "limit", here', "死点")[k % 3] for k in range(n)]),
+            Column("why", as_array([
+                ("", 'a "limit", here', "死点")[k % 3] for k in range(n)])),
         ),
         ("position",),
     )
@@ -71,7 +71,7 @@ def test_a_format_of_a_column_is_kept() -> None:
 
 
 def test_a_cell_is_quoted_only_where_it_must_be() -> None:
-    assert 'why\nok\n"a ""b"", c"\n' == Table((text_column("why", ["ok", 'a "b", c']),)).csv()
+    assert 'why\nok\n"a ""b"", c"\n' == Table((Column("why", as_array(["ok", 'a "b", c'])),)).csv()
 
 
 @pytest.mark.parametrize("pyarrow", [True, False])
@@ -103,7 +103,7 @@ def test_parquet_of_a_csv_file_is_that_of_the_table(tmp_path: Path) -> None:
 
 def test_parquet_keeps_words_in_dictionaries_and_no_number(tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow is not installed")
-    table = Table((Column("v", np.array([1.5, 2.5]), "m/s"), text_column("status", ["ok", "ok"])))
+    table = Table((Column("v", np.array([1.5, 2.5]), "m/s"), Column("status", as_array(["ok", "ok"]))))
     kept = parquet.read_metadata(table.write(tmp_path / "t.parquet")).row_group(0)
     encodings = [kept.column(k).encodings for k in range(2)]
     assert [False, True] == ["RLE_DICTIONARY" in encoding for encoding in encodings]
@@ -123,7 +123,7 @@ def test_json_written_as_it_goes_is_the_data(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_html_shows_the_ends_of_a_long_table_and_escapes_it() -> None:
-    shown = Table((Column("n", np.arange(1000)), text_column("w", ["<b>"] * 1000)))._repr_html_()
+    shown = Table((Column("n", np.arange(1000)), Column("w", as_array(["<b>"] * 1000))))._repr_html_()
     assert (1 + 24 + 1, True, False) == (shown.count("<tr>"), "&lt;b&gt;" in shown, "<td>500" in shown)
 
 

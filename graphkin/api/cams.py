@@ -27,7 +27,7 @@ from graphkin.scene.tables import tidy
 from graphkin.solver import structure_of
 from graphkin.solver.cams import AtDegree, CamStudy, cam_at, least_base, study_cam
 from graphkin.solver.discs import DiscCam, disc_cams, disc_course
-from graphkin.table import Array, Column, Table, text_column
+from graphkin.table import Array, Column, Table, as_array
 from graphkin.words import Neutral, Phrase, say
 from graphkin.words.written import true_minus
 
@@ -236,8 +236,8 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
         parts.append([degree, lift, pitch.real, pitch.imag, profile.real, profile.imag, np.degrees(pressure)])
     names = ("angle_deg", "lift", "pitch_x", "pitch_y", "profile_x", "profile_y", "pressure_deg")
     joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
-    links = [link for link, *_ in courses for _ in range(count)]
-    return Table((text_column("cam", links), *(Column(n, v) for n, v in zip(names, joined, strict=True))))
+    links = as_array([link for link, *_ in courses for _ in range(count)])
+    return Table((Column("cam", links), *(Column(n, v) for n, v in zip(names, joined, strict=True))))
 
 
 @dataclass(frozen=True, repr=False, eq=False)

@@ -193,7 +193,7 @@ class Centred(OfScene, Result):
         few = len(self.centres.names) <= MOST_PLAYED
         # bars for cams at one position are none of the links that move
         pairs = [p for p in self.centres.table if (few or frame in p) and whole.by_name.keys() >= {*p}]
-        values = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
+        values = self.mechanism.by_driver(self.motion.values[0])
         (motion, turned), mm = played(self.mechanism, values), self.centres.mm
         moving = [p for p in motion.scene.holders if p not in motion.scene.frame.points]
         origins = {name: np.asarray(motion.poses[name].z * mm, np.complex128) for name in turned}

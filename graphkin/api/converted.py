@@ -129,9 +129,9 @@ def _bodies(scene: Mechanism) -> Bodies:
     made = Bodies(scene.question.title, unit=scene.units.length)
     for point, place in scene.frame.points.items():
         made.point(point, place / unit)
-    for point, name in solver.listed_points(scene, motion.slides):
-        if point in scene.by_name[name].points and point not in made.places:
-            made.point(point, complex((motion.point(point, name).z / unit)[0]))
+    for ref, link in solver.listed_points(scene, motion.slides):
+        if not ref.link and ref.point not in made.places:
+            made.point(ref.point, complex((motion.point(ref.point, link).z / unit)[0]))
     made.body(FRAME, scene.frame.points)
     poses = {scene.frame.name: (0j, 1 + 0j)}
     for link in scene.links:

@@ -30,7 +30,7 @@ from graphkin.files import Json
 from graphkin.scene.drivers import moment_of, moments, moves_by_law
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import SceneLike
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import MEASURES
 from graphkin.solver import Motion, listed_points, own_slides
 from graphkin.solver.forces import Forces, forces_of
@@ -390,9 +390,8 @@ def _whole(solved: Solved, language: str) -> list[Texts]:
     links = [(link.name, columns(*link_quantities(link.name))) for link in scene.links]
     pairs = own_slides(scene, motion.slides)
     points, slides = list[Row](), list[Row]()
-    for point, link in listed_points(scene, pairs):
-        ref = PointRef(point, "" if point in scene.by_name[link].points else link)
-        points.append((f"{point}@{link}", columns(*(Symbol(kind, ref) for kind in ("place", "v", "a")))))
+    for ref, link in listed_points(scene, pairs):
+        points.append((f"{ref.point}@{link}", columns(*(Symbol(kind, ref) for kind in ("place", "v", "a")))))
     for pair in pairs:
         term = push.of(motion.settled(motion.slide(pair.key)[3], MEASURES["acceleration"], 2.0))
         slides.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))

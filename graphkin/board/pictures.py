@@ -155,8 +155,7 @@ def shown(
         at, said = _last(scene, at), _said(error, _spoken(options.language, scene))
         drawn, motion = drawn_at(structure, at, options)
     places = {p: complex(motion.position(p)[0]) for p, holders in scene.holders.items() if holders}
-    values = dict(zip((d.key for d in scene.drivers), map(float, motion.values[0]), strict=True))
-    answer = _answer(scene, _figures(drawn), places, values, drawn.plan.scales, said)
+    answer = _answer(scene, _figures(drawn), places, scene.by_driver(motion.values[0]), drawn.plan.scales, said)
     return answer if quick else {**answer, **_whole(drawn, options)}
 
 

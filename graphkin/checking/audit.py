@@ -316,8 +316,7 @@ def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, 
     mechanism, for an angle of 1 rad; a rate in r/min is taken to four figures in rad/s, which counts once in velocities
     and twice in accelerations.  Other quantities may be off by that share of themselves.
     """
-    places = listed_points(motion.scene, motion.slides)
-    motions = [motion.point(point, link) for point, link in places]
+    motions = [motion.point(ref.point, link) for ref, link in listed_points(motion.scene, motion.slides)]
     none = np.zeros(len(motion))
     speed = np.max([none, *(np.abs(p.v) + none for p in motions)], axis=0)
     acceleration = np.max([none, *(np.abs(p.a) + none for p in motions)], axis=0)

@@ -97,7 +97,7 @@ class Work:
     @property
     def positions(self) -> list[dict[str, float]]:
         """Driver values of each place by the driver's key."""
-        return [{d.key: float(v) for d, v in zip(self.scene.drivers, row, strict=True)} for row in self.values]
+        return [*map(self.scene.by_driver, self.values)]
 
     def errors(self, velocity: Array | None, acceleration: Array | None) -> tuple[float | None, float | None]:
         """The largest errors of vectors of shape (outputs, places), in parts of the largest value; None for None."""
@@ -181,7 +181,7 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
 # a measurement: what a method costs and how far it is off, and the machine it was made on
 
 
-ENOUGH, MOST = 0.08, 40  # s, runs
+ENOUGH, MOST, LEAST = 0.08, 40, 2e-3  # s, runs, s of a run
 
 Family = Literal["drawn", "closed", "newton", "differences", "complex step", "peer", "by hand"]
 
@@ -215,7 +215,7 @@ class Skipped(Exception):
         self.why = Phrase(f"skip {key}", **gaps)
 
 
-def best_time(run: Callable[[], object], repeats: int, least: float = 2e-3) -> float:
+def best_time(run: Callable[[], object], repeats: int) -> float:
     """The shortest time of some runs (s), each long enough to be timed; other work on the machine only adds time.
 
     There are more runs than asked for where they are short, since a busy machine interrupts many of them.
@@ -223,7 +223,7 @@ def best_time(run: Callable[[], object], repeats: int, least: float = 2e-3) -> f
     started = time.perf_counter()
     run()  # warm: compiled, cached
     once = time.perf_counter() - started
-    loops = 1 if once >= least else max(1, min(10_000, int(least / max(once, 1e-7))))
+    loops = max(1, min(10_000, int(LEAST / max(once, 1e-7))))
     best, begun, done = float("inf"), time.perf_counter(), 0
     while done < repeats or (done < MOST and time.perf_counter() - begun < ENOUGH):
         done += 1

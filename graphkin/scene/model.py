@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, ClassVar, Literal
@@ -489,6 +489,10 @@ class Mechanism:
     def unit_of(self, driver: Driver, radians: bool = False) -> Unit:
         """The unit of a driver's value: degrees (radians in JSON), or the scene's unit of length."""
         return self.units.of(driver.measure, radians)
+
+    def by_driver(self, values: Iterable[float]) -> dict[str, float]:
+        """Values of the drivers (SI) by their keys."""
+        return {d.key: float(value) for d, value in zip(self.drivers, values, strict=True)}
 
     def place_said(self, driver: Driver, value: float) -> str:
         """A value of a driver that a search has found (SI), with its unit: 0 where it is nearer to 0 than a search

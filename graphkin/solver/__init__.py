@@ -24,7 +24,7 @@ from graphkin.solver.drivers import goal_values, own_values
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, listed_points, own_slides
 from graphkin.solver.path.assemblies import choose_modes
-from graphkin.solver.path.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
+from graphkin.solver.path.driver_range import DriverRange, motion_of, range_from, range_of, start_of, way_to
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, listed
@@ -122,17 +122,11 @@ def _start(
 ) -> tuple[Array, Mapping[int, Array], tuple[ChangePoint, ...]] | Motion:
     """The driver values asked for, the assembly mode of each group there, and the change points on the path to them;
     where they are not reached a motion with the reason."""
-    own, goal = own_values(structure.scene), goal_values(structure.scene, at)
     try:
-        modes = choose_modes(structure)
+        goal, modes, passed, why = start_of(structure, at)
     except Unsolvable as stop:
-        return _nowhere(structure, goal, sweep, stop.status, stop.reason)
-    if np.array_equal(own, goal):
-        return goal, modes, ()
-    path = way_to(structure, modes, goal)
-    if path.limit is not None:
-        return _nowhere(structure, goal, sweep, "not assembled", stopped_why(structure, modes, own, path))
-    return goal, path.last_modes, path.change_points
+        return _nowhere(structure, goal_values(structure.scene, at), sweep, stop.status, stop.reason)
+    return _nowhere(structure, goal, sweep, "not assembled", why) if why else (goal, modes, passed)
 
 
 def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, why: Wording) -> Motion:

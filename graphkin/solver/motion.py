@@ -279,9 +279,10 @@ class Motion:
 # the points and the sliding pairs of a scene
 
 
-def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[str, str], ...]:
+def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[PointRef, str], ...]:
     """Every point of a moving link, on every link that has it, every coincident point under a sliding pin, and the
-    points of both bodies at a contact: (point, link) in the order of the file."""
+    points of both bodies at a contact: each as in a symbol, where a pin is the same on all its links, and its link; in
+    the order of the file."""
     found = [(p, link.name) for link in scene.links for p in link.points]
     moving = {link.name for link in scene.links}
     found += [(point, link) for point, pair in scene.contact_at.items() for link in pair.bodies if link in moving]
@@ -289,7 +290,8 @@ def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[str, 
         if pair.pin and pair.b in moving and (pair.pin, pair.b) not in found:
             found.append((pair.pin, pair.b))
     place = {link.name: i for i, link in enumerate(scene.links)}
-    return tuple(sorted(found, key=lambda ref: place[ref[1]]))
+    return tuple((PointRef(point, "" if point in scene.by_name[link].points else link), link)
+                 for point, link in sorted(found, key=lambda known: place[known[1]]))
 
 
 def own_slides(scene: Mechanism, slides: Sequence[Pair]) -> tuple[Pair, ...]:

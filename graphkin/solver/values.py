@@ -28,7 +28,6 @@ from graphkin.solver.algebra.pose import Array, Pose, aimed
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
 from graphkin.solver.path.driver_range import DriverRange, extremes, range_of
-from graphkin.solver.quantities import value_of_symbol
 from graphkin.structure import Structure, kept_with, links_for, part_of
 from graphkin.words import Phrase, Wording, listed, say
 
@@ -45,23 +44,16 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
     CallError : a symbol names nothing here
     Unsolvable : a quantity of the whole turn without a whole turn, a force at a dead point
     """
-    posed, values = motion.posed, dict[Symbol, Value]()
-    for symbol, scope in {symbol: symbol.scope for symbol in symbols}.items():
-        if scope == "turn":
-            values[symbol] = _of_turn(motion, symbol)
-        elif scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
-            values[symbol] = _of_forces_here(motion, symbol)
-        elif scope == "cycle":
-            values[symbol] = float(of_cycle(motion, symbol)[0])
-        else:
-            if scope == "force" or symbol.axis:
-                from graphkin.solver.forces import value_of
+    from graphkin.solver.forces import value_of
 
-                exact = value_of(motion, symbol)[0]
-            else:
-                exact = value_of_symbol(posed, symbol)[0]
-            if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
-                exact = motion.value(symbol)[0]
+    values = dict[Symbol, Value]()
+    for symbol in dict.fromkeys(symbols):
+        if symbol.scope == "turn":
+            values[symbol] = _of_turn(motion, symbol)
+        elif symbol.scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
+            values[symbol] = _of_forces_here(motion, symbol)
+        else:
+            exact = value_of(motion, symbol)[0]
             values[symbol] = complex(exact) if np.iscomplexobj(exact) else float(exact)
     return values
 
@@ -71,19 +63,15 @@ def of_cycle(motion: Motion, symbol: Symbol) -> Array:
 
     Raises
     ------
-    CallError : the scene has no flywheel
     Unsolvable : the driver makes no whole turn
     """
-    problem = no_force(motion.scene, str(symbol), symbol)
-    if problem is not None:
-        raise CallError(problem)
     wheel = flywheel_of(range_of(structure_of(motion.structure)))
     return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
 
 
 def _of_turn(motion: Motion, symbol: Symbol) -> float:
     """A quantity of the whole turn of the first driver, the others at the single position of a motion."""
-    values = {d.key: float(v) for d, v in zip(motion.scene.drivers, motion.values[0], strict=True)}
+    values = motion.scene.by_driver(motion.values[0])
     found = extremes(range_of(structure_of(motion.structure), values), symbol)
     return {"K": found.ways.ratio, "theta_lag": found.ways.lag}.get(symbol.kind, found.stroke)
 
@@ -484,10 +472,9 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
 
     for name, angle in angles.items():
         put("links", name, angle=angle, omega=motion.omega(name), alpha=motion.alpha(name))
-    for point, name in listed_points(scene, motion.slides):
-        # a pin is the same on each of its links
-        at = motion.point(point, "" if point in scene.by_name[name].points else name)
-        put("points", f"{point}@{name}", position=at.z / metres, velocity=at.v / fast, acceleration=at.a / fast)
+    for ref, link in listed_points(scene, motion.slides):
+        at = motion.posed.point(ref)
+        put("points", f"{ref.point}@{link}", position=at.z / metres, velocity=at.v / fast, acceleration=at.a / fast)
     for pair in own_slides(scene, motion.slides):
         travel, *rates = motion.slide(pair.key)
         velocity, acceleration, coriolis = (rate / fast for rate in rates)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -51,12 +51,25 @@ LEAST_GAMMA = 40.0
 EMPTY: Array = np.zeros((0, 2))
 
 
-def heading(scene: Mechanism, title: Words, facts: Sequence[Words], language: str) -> tuple[Text, ...]:
-    """Title, title of the scene and facts, below each other."""
-    return (
-        Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),
-        Text(complex(LEFT, 20.5), rich(scene.question.title_in(language), 3.5)),
-        Text(complex(LEFT, 25.5), rich(spaced(word("list semicolon", language), facts), 3.5)),
+def headed_page(
+    scene: Mechanism, tall: float, paint: Callable[[chart.Figure], None], title: Words, facts: Sequence[Words],
+    language: str, of: str, desc: str, **metadata: object,
+) -> chart.ChartPage:
+    """A page with its title, the title of the scene and facts below each other, and below them what ``paint`` puts on
+    the figure; ``of`` is its subject in plain words."""
+    scene_title = scene.question.title_in(language)
+
+    def painted(figure: chart.Figure) -> None:
+        chart.add_words(
+            figure,
+            Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),
+            Text(complex(LEFT, 20.5), rich(scene_title, 3.5)),
+            Text(complex(LEFT, 25.5), rich(spaced(word("list semicolon", language), facts), 3.5)),
+        )
+        paint(figure)
+
+    return chart.ChartPage(
+        WIDTH, tall, painted, f"{of}: {scene_title}", desc, language, {"scene": scene.name, **metadata}
     )
 
 
@@ -282,17 +295,17 @@ class Panel:
 
 
 def panel_of(
-    axis: Axis, quantity: Symbol, curve: Array, extremes: Sequence[Extreme], bounded: bool = True,
-    dots: Array = EMPTY, laid_over: Array = EMPTY, jumps: Sequence[int] = (),
+    axis: Axis, quantity: Symbol, curve: Array, extremes: Sequence[Extreme], unbounded: bool = False,
+    dots: Array = EMPTY, laid_over: Array = EMPTY, jumps: Sequence[int] = (), bounded: bool | None = None,
 ) -> Panel:
     """The panel of a quantity over an axis, in units of the figure; the span of a force includes zero.
 
     Parameters
     ----------
-    curve, dots, laid_over, jumps : as a `Panel` shows them
-    bounded : False where the quantity may grow without bound: then the span fits the values of most of the range
+    curve, unbounded, dots, laid_over, jumps : as a `Panel` shows them
+    bounded : whether the span fits all values, not those of most of the range; None: unless it is ``unbounded``
     """
-    low, high = span_of(curve, dots, bounded)
+    low, high = span_of(curve, dots, not unbounded if bounded is None else bounded)
     reached = [0.0] if quantity.is_load else laid_over[:, 1].tolist()
     low, high = min([low, *reached]), max([high, *reached])
     room = MARGIN * (high - low)
@@ -306,8 +319,7 @@ def panel_of(
     allowed, falling = _allowed(quantity, axis.scene)
     title = lettered(axis.scene, quantity) + f" ({quantity.unit(axis.scene.units).written})"
     return Panel(
-        quantity, title, curve, dots, marked, span, allowed=allowed, falling=falling, laid_over=laid_over,
-        jumps=tuple(jumps),
+        quantity, title, curve, dots, marked, span, unbounded, allowed, falling, laid_over, tuple(jumps)
     )
 
 
@@ -325,9 +337,10 @@ def motion_panel(
     traced = next((t for t in turn.curves if t.quantity == quantity), None)
     curve = axis.curve(quantity, axis.offsets, course_of(quantity, turn.reach, axis.motion))
     extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
-    panel = panel_of(axis, quantity, curve, extremes, turn.reach.full or quantity.is_position,
-                     axis.points(quantity, dots), axis.points(quantity, laid_over))
-    return replace(panel, unbounded=traced is not None and traced.unbounded)
+    return panel_of(
+        axis, quantity, curve, extremes, traced is not None and traced.unbounded, axis.points(quantity, dots),
+        axis.points(quantity, laid_over), bounded=turn.reach.full or quantity.is_position,
+    )
 
 
 def lettered(scene: Mechanism, symbol: Symbol) -> RichText:
@@ -349,7 +362,7 @@ def _usual(quantity: Symbol) -> tuple[float, float] | None:
     return {"gamma": (LEAST_GAMMA, 90.0), "pressure": (0.0, 90.0 - LEAST_GAMMA)}.get(quantity.kind)
 
 
-def span_of(curve: Array, dots: Array = EMPTY, bounded: bool = True) -> tuple[float, float]:
+def span_of(curve: Array, dots: Array, bounded: bool) -> tuple[float, float]:
     """The range of values to show: all values, but for a quantity that grows without bound near the ends of a limited
     motion the values of most of the range, and the measured points."""
     x, good = curve[np.isfinite(curve[:, 1])].T
@@ -401,7 +414,6 @@ def chart_page(
     tall = THIRD if len(panels) > 1 else ALONE
 
     def paint(figure: chart.Figure) -> None:
-        chart.add_words(figure, *heading(scene, title, facts, language))
         marks = [(chart.look(LIMIT), word("limit marks", language))] if limits else []
         chart.add_legend(figure, complex(LEFT, TOP - 9.5), [*legend_of(panels, language), *marks])
         for k, panel in enumerate(panels):
@@ -414,10 +426,9 @@ def chart_page(
             draw_panel(axes, panel, axis, language, limits)
             axes.tick_params(labelbottom=last)
 
-    return chart.ChartPage(
-        WIDTH, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title=f"{of}: {scene.question.title_in(language)}",
-        desc=" ".join(map(str, facts)) or of, lang=language,
-        metadata={"scene": scene.name, "units": scene.units.length, **about, **metadata},
+    return headed_page(
+        scene, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title, facts, language, of,
+        " ".join(map(str, facts)) or of, **{"units": scene.units.length, **about, **metadata},
     )
 
 

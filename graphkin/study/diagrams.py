@@ -77,7 +77,7 @@ def diagrams(
     points = [(point, link) for point, link in coupler_points(turn.scene)
               if np.isfinite(known.position(point, link)).all()]
     if points:  # of a mechanism that is singular throughout there are none
-        values = dict(zip((d.key for d in turn.scene.drivers), known.values[0].tolist(), strict=True))
+        values = turn.scene.by_driver(known.values[0])
         links = [Symbol("theta", link=link.name) for link in turn.scene.links]
         with suppress(Unsolvable):  # a mechanism that no pencil can draw has no such page
             sheet = draft(turn.reach.structure, values, links)
@@ -184,7 +184,7 @@ def measured(
     sheet: Sheet | None = None
     for k in range(count if asked else 0):
         offset = low + (high - low) * (k / count if reach.full else (k + 0.5) / count)
-        values = dict(zip((d.key for d in scene.drivers), reach.values(np.array([offset]))[0].tolist(), strict=True))
+        values = scene.by_driver(reach.values(np.array([offset]))[0])
         try:
             # the assembly is followed from the last position
             sheet = execute(plan(reach.structure, values, asked, near=sheet))

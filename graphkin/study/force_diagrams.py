@@ -60,8 +60,7 @@ def force_panel(axis: charts.DriverAxis, quantity: Symbol, offsets: charts.Array
     values = course_of(quantity, axis.reach, axis.reach.motion(offsets))
     curve, extremes = axis.curve(quantity, offsets, values), _extremes(axis, quantity, offsets, values)
     away = any(math.isinf(e.value) for e in extremes)
-    panel = charts.panel_of(axis, quantity, curve, extremes, bounded=not away, jumps=jumps_of(curve))
-    return replace(panel, unbounded=away)
+    return charts.panel_of(axis, quantity, curve, extremes, away, jumps=jumps_of(curve))
 
 
 def force_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.ChartPage:
@@ -194,7 +193,7 @@ def polar_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.Cha
         _, driver, greatest = next(extreme for extreme in panel.extremes if extreme[0].kind == "max")
         size, place = f"{charts.number(greatest)} {unit.text}", f"{charts.number(driver, 4)}{mark}"
         facts = [say(Phrase("greatest force at", force=size, place=place), language)]
-    most = charts.span_of(panel.curve, bounded=not panel.unbounded)[1]
+    most = charts.span_of(panel.curve, charts.EMPTY, not panel.unbounded)[1]
     whole = np.concatenate([vector[sizes <= most], [0j]])
     span = 1.12 * max(float(np.ptp(whole.real)), float(np.ptp(whole.imag))) or 1.0
     middle = complex(whole.real.max() + whole.real.min(), whole.imag.max() + whole.imag.min()) / 2
@@ -205,7 +204,6 @@ def polar_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.Cha
     side = charts.WIDTH - charts.LEFT - charts.RIGHT
 
     def paint(figure: chart.Figure) -> None:
-        chart.add_words(figure, *charts.heading(scene, title, facts, language))
         box = Box(charts.LEFT, charts.TOP - 4.0, charts.LEFT + side, charts.TOP - 4.0 + side)
         axes = chart.add_panel(figure, box, str(quantity).replace("/", "-"), name + f" ({unit.text})", f"({unit.text})")
         axes.set_xlim(middle.real - span / 2, middle.real + span / 2)
@@ -223,10 +221,9 @@ def polar_page(reach: DriverRange, quantity: Symbol, language: str) -> chart.Cha
             toward.append((float(np.angle(vector[j])),))
         chart.add_labels(axes, labels, toward=toward)
 
-    return chart.ChartPage(
-        charts.WIDTH, charts.TOP + side + 16.0, paint, title=f"{quantity}: {scene.question.title_in(language)}",
-        desc=str(facts[0]), lang=language,
-        metadata={"scene": scene.name, "units": unit.text, "quantity": str(quantity)},
+    return charts.headed_page(
+        scene, charts.TOP + side + 16.0, paint, title, facts, language, str(quantity), str(facts[0]),
+        units=unit.text, quantity=str(quantity),
     )
 
 
@@ -255,7 +252,6 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
     ]
 
     def paint(figure: chart.Figure) -> None:
-        chart.add_words(figure, *charts.heading(scene, title, facts, language))
         entries = [(chart.look(chart.SOLID_AND_DASHED[0]), word("needed moment", language)),
                    (chart.look(DRIVING), word("driving moment", language))]
         chart.add_legend(figure, complex(charts.LEFT, MOMENT_TOP - 9.5), entries)
@@ -292,11 +288,9 @@ def flywheel_page(reach: DriverRange, study: FlywheelStudy, language: str) -> ch
             names.append((sign("ω") + f" {letter}", (float(x[k]), float(energy[k]))))
         chart.add_labels(store, names, toward=[(math.pi / 2,), (-math.pi / 2,)])
 
-    return chart.ChartPage(
-        charts.WIDTH, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint,
-        title=f"{title}: {scene.question.title_in(language)}", lang=language,
-        desc=spoken_words(spaced(word("list semicolon", language), facts), language),
-        metadata={"scene": scene.name, "units": moment, "flywheel": study.link},
+    return charts.headed_page(
+        scene, MOMENT_TOP + MOMENT_TALL + ENERGY_GAP + ENERGY_LOW + 20.0, paint, title, facts, language, title,
+        spoken_words(spaced(word("list semicolon", language), facts), language), units=moment, flywheel=study.link,
     )
 
 

@@ -200,7 +200,7 @@ def _drawn(reach: DriverRange, given: Symbol, offsets: Array) -> Array:
     """The ordinates, measured on a drawing of each position."""
     scene, ordinates = reach.scene, []
     for offset in offsets:
-        values = dict(zip((d.key for d in scene.drivers), reach.values(np.array([offset]))[0].tolist(), strict=True))
+        values = scene.by_driver(reach.values(np.array([offset]))[0])
         try:
             value = drawn(draft(reach.structure, values, (on_paper(scene, given)[0],)), given)
         except GraphkinError as error:

@@ -158,7 +158,7 @@ class TimeStudy:
         def panel(quantity: Symbol) -> Panel:
             shown, extremes = axis.shown(quantity, axis.times, axis.course(quantity)), self.extremes[quantity]
             curve, away = np.stack([axis.times, shown], axis=1), any(math.isinf(e.value) for e in extremes)
-            return replace(panel_of(axis, quantity, curve, extremes, bounded=not away), unbounded=away)
+            return panel_of(axis, quantity, curve, extremes, away)
 
         return {figure_name(quantities): chart_page(axis, [*map(panel, quantities)], facts, language, over="time")
                 for quantities in self.groups}

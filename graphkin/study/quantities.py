@@ -11,12 +11,11 @@ from functools import partial
 import numpy as np
 
 from graphkin.scene.model import Mechanism, forces_named
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, listed_points, own_slides
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.forces import ends_of, settled_value, value_of
 from graphkin.solver.quantities import all_slides
-from graphkin.solver.values import of_cycle
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording
@@ -34,14 +33,14 @@ def course_of(quantity: Symbol, reach: DriverRange | None, motion: Motion) -> Ar
     if quantity.kind == "theta":
         angle, other = motion.angle if reach is None else partial(reach.angle, motion), quantity.other
         return angle(quantity.link) - angle(other) if other else angle(quantity.link)
-    value = (of_cycle if quantity.scope == "cycle" else value_of)(motion, quantity)
+    value = value_of(motion, quantity)
     return np.abs(value) if quantity.is_vector else np.asarray(value.real)
 
 
 def parts_of(quantity: Symbol, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
     """The values of a quantity in a motion (alone, or of a range) in the table's units, 0 where they are rounding
     alone: one array, or a vector's components."""
-    if quantity.is_angle_of_link or quantity.scope == "cycle":
+    if quantity.is_angle_of_link:
         value = motion.settled(course_of(quantity, reach, motion), quantity.measure)
     else:
         value = settled_value(motion, quantity)
@@ -108,16 +107,11 @@ def all_that_moves(structure: Structure) -> tuple[Symbol, ...]:
     """The quantities of all that moves: each pin once, and each point under a sliding pin."""
     scene, slides = structure.scene, own_slides(structure.scene, all_slides(structure))
     found = [q for link in scene.links for q in link_quantities(link.name)]
-    seen: set[PointRef] = set()
-    for point, link_name in listed_points(scene, slides):
-        ref = PointRef(point) if point in scene.by_name[link_name].points else PointRef(point, link_name)
-        if ref in seen or (not ref.link and point in scene.frame.points):
-            continue
-        seen.add(ref)
-        found += [Symbol("place", ref)] if not ref.link else []
-        found += [Symbol(kind, ref) for kind in ("v", "a")]
+    for ref, _ in listed_points(scene, slides):
+        if ref.link or ref.point not in scene.frame.points:
+            found += [Symbol(kind, ref) for kind in (("v", "a") if ref.link else ("place", "v", "a"))]
     found += [q for slide in slides for q in slide_quantities(slide.key)]
-    return (*found, *forces_named(scene))
+    return *dict.fromkeys(found), *forces_named(scene)
 
 
 def motion_table(

@@ -30,9 +30,9 @@ from graphkin.solver.forces import forces_of, settled
 from graphkin.solver.path.named_positions import first_position, standing
 from graphkin.solver.prepared import PreparedMechanism, prepare
 from graphkin.structure import Structure
-from graphkin.study.designs import Designs, Value, applied
+from graphkin.study.designs import Designs, applied
 from graphkin.study.prepared_designs import PreparedMechanisms
-from graphkin.study.quantities import Parts, Words, all_that_moves, motion_table, parts_of, word_column
+from graphkin.study.quantities import Parts, Words, all_that_moves, motion_table, parts_of
 from graphkin.table import Column, Table, Tabled, Values, parquet_of_csv, table_of_csv
 from graphkin.words import Wording, as_data, from_data, from_others
 
@@ -350,16 +350,9 @@ class Sweep(Tabled):
                 yield k * n + rows, design, driven if isinstance(design, tuple) else design.reach.offsets(driven)
 
         table = base.table_of(columns.reshape(len(columns), -1), _driven(starts, given), missing())
-        if not self.designs.keys:
-            return table
-        count, (_, *others) = len(ok), table.columns
-        numbers = np.array([self.designs[k] for k in range(count)], float)
-        numbered = [
-            Column("design", np.repeat(np.arange(1, count + 1), n)),
-            *(Column(key, np.repeat(each, n)) for key, each in zip(self.designs.keys, numbers.T, strict=True)),
-            Column("position", np.tile(np.arange(1, n + 1), count)),
-        ]
-        return Table((*numbered, *others), ("design", "position"))
+        position, *others = table.columns
+        position = replace(position, values=np.tile(np.arange(1, n + 1), len(ok)))
+        return _of_designs(replace(table, columns=(position, *others)), self.designs, n)
 
     def to_xarray(self) -> xarray.Dataset:
         """The table as a data set of xarray with units, over ``position`` or over ``design`` and ``position``, with the
@@ -396,8 +389,7 @@ class Sweep(Tabled):
     @cached_property
     def head(self) -> Table:
         """The table without rows.  Raises Unsolvable for a wrong mobility."""
-        values = ["" if word else 0.0 for word in self.designs.worded]
-        return _with_design(self.base.blank(0, 0), self.designs.keys, 0, values)
+        return _of_designs(self.base.blank(0, 0), self.designs.part(0, 0), 0)
 
     @cached_property
     def key(self) -> str:
@@ -442,18 +434,16 @@ def _driven(starts: Array, given: Array) -> Array:
 def made(sweep: Sweep) -> tuple[Table, list[Outcome]]:
     """The table of a piece, and the outcome of each of its designs.  Failures of a design are told in its rows and not
     raised."""
-    designs, keys = sweep.designs, sweep.designs.keys
+    designs = sweep.designs
     followed = [_followed(sweep, k) for k in range(len(designs))]
     first, last = sweep.some or (0, sweep.positions)
-    arrays = _together(sweep, followed) if last - first == sweep.positions and keys else {}
+    arrays = _together(sweep, followed) if last - first == sweep.positions and designs.keys else {}
     tables, outcomes, alike = [], [], sweep.base.blank(0, 0)
     for k, design in enumerate(followed):
-        number = designs.first + k
-        table, outcome = _rows(sweep, number, design, arrays.get(k), first, last)
-        shown = [str(v) if word else v for v, word in zip(designs[k], designs.worded, strict=True)]
-        tables.append(_with_design(_like(alike, table), keys, number, shown))
+        table, outcome = _rows(sweep, designs.first + k, design, arrays.get(k), first, last)
+        tables.append(_like(alike, table))
         outcomes.append(outcome)
-    return Table.joined(tables), outcomes
+    return _of_designs(Table.joined(tables), designs, last - first), outcomes
 
 
 def made_text(sweep: Sweep) -> tuple[bytes, list[Outcome]]:
@@ -543,16 +533,18 @@ def _followed(sweep: Sweep, number: int) -> FollowedDesign | tuple[str, Wording]
         return "wrong scene", error.reason
 
 
-def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequence[Value]) -> Table:
-    """The table of a design, after its number and its replaced values."""
-    if not keys:
+def _of_designs(table: Table, designs: Designs, n: int) -> Table:
+    """The table of designs, ``n`` rows of each in turn, after their numbers and their replaced values."""
+    if not designs.keys:
         return table
-    n = len(table)
+    rows = [designs[k] for k in range(len(designs))]
+    numbers = Column("design", np.repeat(designs.first + 1 + np.arange(len(rows)), n))
     replaced = (
-        word_column(key, [value], n) if isinstance(value, str) else Column(key, np.full(n, float(value)))
-        for key, value in zip(keys, values, strict=True)
+        Column(key, np.repeat(np.array([str(row[k]) for row in rows] if word else [row[k] for row in rows],
+                                       object if word else float), n))
+        for k, (key, word) in enumerate(zip(designs.keys, designs.worded, strict=True))
     )
-    return Table((Column("design", np.full(n, number + 1)), *replaced, *table.columns), ("design", "position"))
+    return Table((numbers, *replaced, *table.columns), ("design", "position"))
 
 
 def at_once(sweep: Sweep) -> tuple[Sweep, tuple[Outcome, ...]] | None:

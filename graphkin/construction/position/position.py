@@ -286,7 +286,7 @@ def moved_to(
     first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     limits: list[Mapping[str, float]] = []
     for end in ways(scene.drivers, first, goal, placed.structure.rolls):
-        target = dict(zip((d.key for d in scene.drivers), end, strict=True))
+        target = scene.by_driver(end)
         length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
         longest = 1.0 / max(1, math.ceil(length / (STEP if placed.of else LONG_STEP)))
 

@@ -17,7 +17,7 @@ import numpy as np
 from graphkin.search import extrapolated
 from graphkin.solver.algebra.larger_groups import GroupSolved
 from graphkin.solver.algebra.pose import Array
-from graphkin.solver.compiled.engine import group_at, positions
+from graphkin.solver.compiled.engine import group_at
 from graphkin.solver.path.driver_path import OFF_FLIP, START, Path, Stretch, closed, stretches, turning
 from graphkin.structure import Dyad, LargerGroup, RollingRelation, Structure
 
@@ -274,8 +274,7 @@ def _without_leg(path: Path, i: int, dyad: Dyad, along: Stretch) -> list[float]:
 
 def _square_between(path: Path, i: int, first: tuple[str, complex], second: tuple[str, complex], t: Array) -> Array:
     """The square of the distance of two places, each of a link, over the size."""
-    t = path.off_flips(t)
-    poses = positions(path.structure, path.drive(t), path.mode(t), i + 1, rates=False).poses
+    poses = path.placed(t, i + 1).poses
     (a, b), size = (poses[link].fixed(at).z for link, at in (first, second)), path.structure.scene.size
     return np.broadcast_to(np.abs((a - b) / size) ** 2, t.shape)
 
@@ -291,8 +290,7 @@ def _passed_by(path: Path, i: int, mode: Callable[[Array], Array], flips: Array,
 def _refined(path: Path, i: int, grid: Array) -> Array:
     """The nodes, more of them where the placed links turn fast."""
     for _ in range(20):
-        t = path.off_flips(grid)
-        poses = positions(path.structure, path.drive(t), path.mode(t), i + 1, rates=False).poses
+        poses = path.placed(grid, i + 1).poses
         turning = [np.broadcast_to(np.nan_to_num(p.u), grid.shape) for p in poses.values()]
         swing = np.max([np.abs(np.diff(u)) for u in turning], axis=0)
         fast = np.flatnonzero((swing > SWING) & (np.diff(grid) > OFF_FLIP))
@@ -316,9 +314,7 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
 
 def _follow_rolled(path: Path, i: int, rolled: RollingRelation, mode: Array, grid: Array) -> Path:
     """Count the turns of the links on which a link rolls."""
-    t = path.off_flips(grid)
-    poses = positions(path.structure, path.drive(t), path.mode(t), i, rates=False).poses
-    columns = []
+    poses, columns = path.placed(grid, i).poses, []
     for k, ((kind, name), _) in enumerate(rolled.factors):
         columns.append(np.full(len(grid), mode[2 * k]))
         if kind == "angle":

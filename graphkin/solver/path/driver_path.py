@@ -20,7 +20,15 @@ import numpy as np
 from graphkin.search import angles_between, last_true, places_between, resolve
 from graphkin.solver.algebra.dyads import TOUCH, DyadSolution
 from graphkin.solver.algebra.pose import Array, Drive
-from graphkin.solver.compiled.engine import SINGULAR, ExtendedPrecision, discriminant_of, newton, positions, touch
+from graphkin.solver.compiled.engine import (
+    SINGULAR,
+    ExtendedPrecision,
+    State,
+    discriminant_of,
+    newton,
+    positions,
+    touch,
+)
 from graphkin.solver.drivers import meant_value, working
 from graphkin.solver.sentences import limit_why
 from graphkin.structure import Dyad, Structure
@@ -124,10 +132,14 @@ class Path:
             t = np.where(np.abs(t - flip) < OFF_FLIP, flip + OFF_FLIP, t)
         return t
 
+    def placed(self, t: Array, upto: int | None = None) -> State:
+        """The mechanism at parameters, up to an element, without rates; beside change points."""
+        t = self.off_flips(t)
+        return positions(self.structure, self.drive(t), self.mode(t), upto, rates=False)
+
     def discriminant(self, i: int, t: Array) -> Array:
         """The discriminant of a dyad with a mode, shape (n,)."""
-        t = self.off_flips(t)
-        solved = positions(self.structure, self.drive(t), self.mode(t), i + 1, rates=False).groups[i]
+        solved = self.placed(t, i + 1).groups[i]
         assert isinstance(solved, DyadSolution)
         return np.broadcast_to(solved.discriminant, t.shape)
 
@@ -211,11 +223,9 @@ class Path:
     @cached_property
     def angles(self) -> dict[str, Array]:
         """The angle of each link at the nodes (rad), without jumps; in (-pi, pi] at the start, also in a dead point."""
-        nodes = self.off_flips(self.nodes)
-        poses = positions(self.structure, self.drive(nodes), self.mode(nodes), rates=False).poses
         found: dict[str, Array] = {}
-        for name, pose in poses.items():
-            u = np.nan_to_num(np.broadcast_to(pose.u, nodes.shape), nan=1.0)
+        for name, pose in self.placed(self.nodes).poses.items():
+            u = np.nan_to_num(np.broadcast_to(pose.u, self.nodes.shape), nan=1.0)
             found[name] = np.angle(u[0]) + turning(u)
         return found
 

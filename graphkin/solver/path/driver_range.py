@@ -58,14 +58,25 @@ def range_of(structure: Structure, at: Mapping[str, float] | None = None) -> Dri
     Unsolvable : the start cannot be assembled or reached
     CallError : ``at`` names no driver
     """
-    modes, own, start = choose_modes(structure), own_values(structure.scene), goal_values(structure.scene, at)
-    if not np.array_equal(own, start):
-        path = way_to(structure, modes, start)
-        if path.limit is not None:
-            why = stopped_why(structure, modes, own, path)
-            raise Unsolvable("not assembled", Problem(structure.scene.name or "scene", why))
-        modes = path.last_modes
+    start, modes, _, why = start_of(structure, at)
+    if why:
+        raise Unsolvable("not assembled", Problem(structure.scene.name or "scene", why))
     return range_from(structure, modes, start)
+
+
+def start_of(
+    structure: Structure, at: Mapping[str, float] | None
+) -> tuple[Array, Mapping[int, Array], tuple[ChangePoint, ...], Wording]:
+    """The values of the drivers that are asked for, shape (drivers,), the assembly mode of each group there, the change
+    points on the way to them, and the reason why the motion does not reach them, "" where it does.  Raises as
+    ``choose_modes``."""
+    own, goal = own_values(structure.scene), goal_values(structure.scene, at)
+    modes = choose_modes(structure)
+    if np.array_equal(own, goal):
+        return goal, modes, (), ""
+    path = way_to(structure, modes, goal)
+    why = "" if path.limit is None else stopped_why(structure, modes, own, path)
+    return goal, path.last_modes, path.change_points, why
 
 
 def range_from(structure: Structure, modes: Mapping[int, Array], start: Array, which: int = 0) -> DriverRange:
