@@ -266,10 +266,7 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
     lines = []
     for name, (quantity, extremes) in ranges.items():
         unit = quantity.unit(scene.units)
-        parts = [
-            f"{word('greatest' if e.kind == 'max' else 'least', language)} {unit.of(e.value):.6g} @ {_at(turn, e)}"
-            for e in extremes if math.isfinite(e.value)
-        ]
+        parts = [_extreme(turn, unit, e, language) for e in extremes if math.isfinite(e.value)]
         if away := dict.fromkeys(_at(turn, e) for e in extremes if math.isinf(e.value)):
             parts.insert(0, say(Phrase("grows without bound at", place=listed([*away])), language))
         lines.append(_named(name, unit, language) + word("list semicolon", language).join(parts))
@@ -344,12 +341,8 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
     moving = [t for t in turn.curves if t.constant is None and not t.quantity.is_position]
     for traced in moving[:MOST_CURVES]:
         quantity, unit = traced.quantity, traced.quantity.unit(scene.units)
-        parts = []
-        for key, extreme in (("greatest", traced.furthest(1.0, "max")), ("least", traced.furthest(-1.0, "min"))):
-            if extreme is not None:
-                value = unit.of(extreme.value)
-                named = word(f"local {key}" if extreme.local else key, language)
-                parts.append(f"{named} {value:.6g} @ {_at(turn, extreme)}")
+        furthest = traced.furthest(1.0, "max"), traced.furthest(-1.0, "min")
+        parts = [_extreme(turn, unit, extreme, language) for extreme in furthest if extreme is not None]
         if traced.unbounded:
             parts.append(word("unbounded", language))
         if traced.zeros:
@@ -357,6 +350,13 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
             parts.append(f"{word('zero at', language)} {say(places, language)}")
         lines.append(_named(str(quantity), unit, language) + word("list semicolon", language).join(parts))
     return lines
+
+
+def _extreme(turn: TurnStudy, unit: Unit, extreme: Extreme, language: str) -> str:
+    """A greatest or least value, and the place of it."""
+    key = "greatest" if extreme.kind == "max" else "least"
+    named = word(f"local {key}" if extreme.local else key, language)
+    return f"{named} {unit.of(extreme.value):.6g} @ {_at(turn, extreme)}"
 
 
 def _named(name: str, unit: Unit, language: str) -> str:

@@ -151,7 +151,7 @@ class DriverAxis(Axis):
             low, high = 0.0, 360.0 * reach.turns
         else:
             unit = self.scene.unit_of(reach.driver)
-            low, high = sorted(float(unit.of(reach.value(np.array(end)))) for end in reach.ends)
+            low, high = sorted(unit.of(reach.value(np.array(reach.ends))).tolist())
         return (low, high) if reach.sense > 0 else (high, low)
 
     @property

@@ -17,13 +17,13 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import Symbol
 from graphkin.search import strokes_between
-from graphkin.solver import DriverRange, Motion, own_slides
+from graphkin.solver import DriverRange, Motion
 from graphkin.solver.path.driver_path import FAR, Path, Stretch, assembled, not_tried
 from graphkin.solver.path.driver_range import EQUAL as EQUALLY_FAR
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Driven, Dyad, DyadKind, Structure
 from graphkin.study.extremes import Extreme, Traced, trace
-from graphkin.study.quantities import course_of, link_quantities, rates_of, slide_quantities
+from graphkin.study.quantities import all_that_moves, course_of, link_quantities, rates_of, slide_quantities
 
 EQUAL = 1e-9
 """Lengths that differ by less than this part of the longest count as equal: a change point."""
@@ -82,34 +82,24 @@ class Output:
     def stroke(self) -> float | None:
         """Stroke (m) or swing (rad); None for a link that turns on and on or goes away without bound, and
         where its value at an end cannot be computed."""
-        if self.unbounded or self.not_computed:
+        if not self.lows or not self.highs or not all(math.isfinite(e.value) for e in self.position.extremes):
             return None
-        return self.highs[0].value - self.lows[0].value if self.lows and self.highs else None
+        return self.highs[0].value - self.lows[0].value
 
     @property
     def without(
         self,
     ) -> Literal["goes away", "not computed", "does not move", "nowhere limited", "turns on", "slides on"]:
         """The phrase for an output without a stroke."""
-        if self.unbounded:
+        if any(math.isinf(e.value) for e in self.position.extremes):
             return "goes away"
-        if self.not_computed:
+        if any(math.isnan(e.value) for e in self.position.extremes):
             return "not computed"
         if self.position.constant is not None:
             return "does not move"
         if self.followed:
             return "nowhere limited"
         return "turns on" if self.quantity.is_angle_of_link else "slides on"
-
-    @property
-    def unbounded(self) -> bool:
-        """Whether it goes away without bound at an end of the motion."""
-        return any(np.isinf(e.value) for e in self.position.extremes)
-
-    @property
-    def not_computed(self) -> bool:
-        """Whether its value at an end of the motion cannot be computed."""
-        return any(np.isnan(e.value) for e in self.position.extremes)
 
 
 @dataclass(frozen=True)
@@ -400,18 +390,13 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
         those of every link and sliding pair
     everything : False gives only the limit positions of the outputs, transmission and classes
     """
-    scene = reach.scene
-    start = reach.known
-    mains = [link_quantities(name)[0] for name in output_links(scene)]
-    mains += [slide_quantities(key)[0] for key in output_slides(start)]
+    mains = [link_quantities(name)[0] for name in output_links(reach.scene)]
+    mains += [slide_quantities(key)[0] for key in output_slides(reach.known)]
     wanted = list(mains)
     if everything:
         for main in mains:
             wanted += [q for q in rates_of(main) if q not in wanted]
-        others = list(asked)
-        if not asked:
-            others = [q for link in scene.links for q in link_quantities(link.name)]
-            others += [q for s in own_slides(scene, start.slides) for q in slide_quantities(s.key)]
+        others = asked or [q for q in all_that_moves(reach.structure) if q.of is None and q.scope != "force"]
         wanted += [q for q in others if q not in wanted]
     groups = {Symbol("transmission", name=d.label): d for d in reach.structure.dyads.values()}
     traced = trace(reach, (*wanted, *groups))
@@ -480,7 +465,7 @@ def ranges(reach: DriverRange) -> tuple[Stretch, ...]:
     as its motion reaches."""
     if reach.full:
         return (Stretch(0.0, 2 * np.pi * reach.turns),)
-    low, high = sorted(float(reach.value(np.array(end))) for end in reach.ends)
+    low, high = sorted(reach.value(np.array(reach.ends)).tolist())
     below, above = reach.limited if reach.sense > 0 else reach.limited[::-1]
     own = Stretch(low, high, (below, above))
     dyads = [*reach.structure.dyads]

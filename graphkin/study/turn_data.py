@@ -9,6 +9,7 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
 from graphkin.study.extremes import Extreme, Traced, driver_value
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import word
@@ -17,17 +18,15 @@ from graphkin.words import word
 def _flywheel(turn: TurnStudy) -> dict[str, Json]:
     """The flywheel, if the scene asks for one, or the reason why there is none: in the scene's units, works in force x
     metre."""
-    units = turn.scene.units
-    found = turn.flywheel
+    units, found = turn.scene.units, turn.flywheel
     if found is None:
         return {}
     if isinstance(found, Unsolvable):
         return {"flywheel": {"excess_W": None, "J_F": None, "why": found.why}}
-    areas = [
-        {"from": _driver(turn.scene, float(turn.reach.value(np.array(first)))),
-         "to": _driver(turn.scene, float(turn.reach.value(np.array(last)))), "work": work / units.newtons}
-        for (first, last), work in found.areas.items()
-    ]
+    areas: list[Json] = []
+    for offsets, work in found.areas.items():
+        first, last = (_driver(turn.scene, value) for value in turn.reach.value(np.array(offsets)).tolist())
+        areas.append({"from": first, "to": last, "work": work / units.newtons})
     return {
         "flywheel": {
             "on": found.link,
@@ -107,11 +106,9 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
     except Unsolvable as stop:
         return {"forces": {}, "why_no_forces": stop.why}
     return {"forces": {
-        name: {"unit": quantity.unit(turn.scene.units).text, "extremes": [
-            {"kind": e.kind, "driver": _driver(turn.scene, e.driver),
-             **known(quantity.unit(turn.scene.units).of(e.value), "grows without bound there")}
-            for e in extremes
-        ]} for name, (quantity, extremes) in found.items()
+        name: {"unit": quantity.unit(turn.scene.units).text,
+               "extremes": [_extreme(turn, quantity, e, "grows without bound there") for e in extremes]}
+        for name, (quantity, extremes) in found.items()
     }}
 
 
@@ -124,39 +121,37 @@ def _driver(scene: Mechanism, value: float) -> float:
     return float(scene.unit_of(scene.drivers[0], radians=True).of(value))
 
 
-def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Json]:
-    value = traced.quantity.unit(turn.scene.units, radians=True).of(extreme.value)
+def _extreme(turn: TurnStudy, quantity: Symbol, extreme: Extreme, away: str = "goes away") -> dict[str, Json]:
+    """An extreme; ``away`` is the reason for a value without bound."""
+    value = quantity.unit(turn.scene.units, radians=True).of(extreme.value)
     return {
         "kind": extreme.kind,
         "driver": _driver(turn.scene, extreme.driver),
-        **known(value, "goes away" if math.isinf(extreme.value) else "not computed"),
+        **known(value, away if math.isinf(extreme.value) else "not computed"),
         **({"local": True} if extreme.local and math.isfinite(value) else {}),
     }
 
 
 def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Json]:
-    scene = turn.scene
+    quantity, unit = traced.quantity, traced.quantity.unit(turn.scene.units, radians=True)
     data: dict[str, Json] = {
-        "unit": traced.quantity.unit(scene.units, radians=True).text,
-        "extremes": [_extreme(turn, traced, e) for e in traced.extremes],
+        "unit": unit.text, "extremes": [_extreme(turn, quantity, e) for e in traced.extremes],
     }
-    if not traced.quantity.is_angle_of_link:  # where a turning link points along x is not sought
-        data["zeros"] = [_driver(scene, z) for z in traced.zeros]
+    if not quantity.is_angle_of_link:  # where a turning link points along x is not sought
+        data["zeros"] = [_driver(turn.scene, z) for z in traced.zeros]
     if traced.constant is not None:
-        data["constant"] = traced.quantity.unit(scene.units, radians=True).of(traced.constant)
+        data["constant"] = unit.of(traced.constant)
     return data
 
 
 def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
-    scene, quantity = turn.scene, output.quantity
-    name = quantity.pair
+    quantity, stroke, back = output.quantity, output.stroke, turn.quick_return(output)
+    mover, way = ("link", "swing") if quantity.kind == "theta" else ("slide", "stroke")
     data: dict[str, Json] = {
-        "link" if quantity.kind == "theta" else "slide": name,
-        "limit_positions": [_extreme(turn, output.position, e) for e in output.position.extremes],
+        mover: quantity.pair,
+        "limit_positions": [_extreme(turn, quantity, e) for e in output.position.extremes],
+        way: None if stroke is None else quantity.unit(turn.scene.units, radians=True).of(stroke),
     }
-    stroke, back = output.stroke, turn.quick_return(output)
-    what = "swing" if quantity.kind == "theta" else "stroke"
-    data[what] = None if stroke is None else quantity.unit(scene.units, radians=True).of(stroke)
     data["K"], data["theta"] = back if back else (None, None)
     if stroke is None:
         data["why"] = word(output.without, "en")
@@ -168,18 +163,15 @@ def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
 def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
     """A row of a table of designs: strokes and swings (deg), K, the least transmission angle (deg) and its place."""
     scene = turn.scene
-    length = scene.units.length
     cells: dict[str, float | str | None] = {}
     own, unit = turn.ranges[0], scene.unit_of(scene.drivers[0])
     for name, value, limited in zip(("low", "high"), (own.low, own.high), own.ends, strict=True):
         cells[f"range_{name} ({unit.text})"] = unit.of(value) if limited or turn.reach.full else None
     for output in turn.outputs:
-        quantity, stroke = output.quantity, output.stroke
-        name = quantity.pair
-        key = f"swing_{name} (deg)" if quantity.kind == "theta" else f"stroke_{name} ({length})"
-        cells[key] = None if stroke is None else quantity.unit(scene.units).of(stroke)
-        back = turn.quick_return(output)
-        cells[f"K_{name}"] = back[0] if back else None
+        quantity, stroke, back = output.quantity, output.stroke, turn.quick_return(output)
+        own_unit, way = quantity.unit(scene.units), "swing" if quantity.kind == "theta" else "stroke"
+        cells[f"{way}_{quantity.pair} ({own_unit.text})"] = None if stroke is None else own_unit.of(stroke)
+        cells[f"K_{quantity.pair}"] = back[0] if back else None
     for least in turn.transmission:
         cells[f"least_transmission_{least.group.label} (deg)"] = math.degrees(least.angle)
     cells["mechanisms"] = "; ".join(loop.name for loop in turn.loops)
