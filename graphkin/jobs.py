@@ -156,16 +156,10 @@ class Workers:
         self._waiting: set[Future[Any]] = set()
 
     @property
-    def width(self) -> int:
-        """The number of pieces done at once, if the executor tells it; 1 in this process alone."""
-        if self._processes is not None:
-            return self._processes
-        return 1 if self._given is None else _width(self._given)
-
-    @property
     def ahead(self) -> int:
-        """The number of pieces given out beyond the awaited one."""
-        return 0 if self._given is None and self._processes is None else AHEAD * max(2, self.width)
+        """The number of pieces given out beyond the awaited one: a few for each worker; none in this process alone."""
+        width = self._processes if self._given is None else _width(self._given)
+        return 0 if width is None else AHEAD * max(2, width)
 
     def start(self, task: Callable[..., Result], *given: object) -> Callable[[], Result]:
         """Give out a piece; the returned function waits for its result.

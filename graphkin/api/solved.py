@@ -43,6 +43,7 @@ from graphkin.study.quantities import (
     link_quantities,
     motion_table,
     parts_of,
+    rates_of,
     slide_quantities,
 )
 from graphkin.table import Array, Column, Table, Values
@@ -391,7 +392,7 @@ def _whole(solved: Solved, language: str) -> list[Texts]:
     pairs = own_slides(scene, motion.slides)
     points, slides = list[Row](), list[Row]()
     for ref, link in listed_points(scene, pairs):
-        points.append((f"{ref.point}@{link}", columns(*(Symbol(kind, ref) for kind in ("place", "v", "a")))))
+        points.append((f"{ref.point}@{link}", columns(*rates_of(Symbol("place", ref)))))
     for pair in pairs:
         term = push.of(motion.settled(motion.slide(pair.key)[3], MEASURES["acceleration"], 2.0))
         slides.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))

@@ -457,28 +457,23 @@ def _acting(motion: Motion, load: LoadOn) -> tuple[Array, Array]:
 
 
 def value_of(motion: Motion, symbol: Symbol) -> Array:
-    """A quantity of the motion, a force or a quantity of the flywheel by its symbol: complex for vectors, real for
-    others (SI), shape (n,).
+    """A quantity of the motion or a force by its symbol: complex for vectors, real for others (SI), shape (n,).
 
     Raises
     ------
     CallError : the symbol names nothing here
-    Unsolvable : a flywheel, or a load on a part of a stroke, and the driver makes no whole turn
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
     if symbol.along:
         vector, sense = value_of(motion, symbol.whole), senses_along(motion, symbol)
         return vector.real if sense is None else (vector * sense.conjugate()).real
-    if symbol.scope not in ("force", "cycle"):
+    if symbol.scope != "force":
         return motion.value(symbol)
     if symbol.axis:
         return np.asarray(part_along(symbol.axis, value_of(motion, symbol.whole)))
     problem = no_force(motion.scene, str(symbol), symbol)
     if problem is not None:
         raise CallError(problem)
-    if symbol.scope == "cycle":
-        from graphkin.solver.values import of_cycle
-
-        return of_cycle(motion, symbol)
     found = forces_of(motion).value(symbol)
     if found is None:
         raise CallError.of(str(symbol), "is read off the drawing alone", "ask check for it")

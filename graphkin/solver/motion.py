@@ -4,7 +4,7 @@ with the status of each position and its reason.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -55,11 +55,6 @@ class Motion:
     turned: Mapping[str, Array] = field(default_factory=dict)
     passed: tuple[ChangePoint, ...] = ()
     onward: Mapping[str, float] = field(default_factory=dict)
-
-    @cached_property
-    def kept(self) -> dict[Hashable, Any]:
-        """Results kept for further use: the forces."""
-        return {}
 
     @property
     def scene(self) -> Mechanism:
@@ -159,7 +154,7 @@ class Motion:
 
     def angle(self, link: str) -> Array:
         """Angle of the link's own x axis (rad): in (-pi, pi] at the first ok position, continuous from there."""
-        angle = np.angle(self.poses[self.link(link).name].u)
+        angle = np.angle(self.posed.pose(link).u)
         angle = np.where(angle == -np.pi, np.pi, angle)
         good = self.ok
         out = np.full(len(self), np.nan)
@@ -177,11 +172,11 @@ class Motion:
 
     def omega(self, link: str) -> Array:
         """real, shape (n,) (rad/s), counter-clockwise positive."""
-        return self.poses[self.link(link).name].omega
+        return self.posed.pose(link).omega
 
     def alpha(self, link: str) -> Array:
         """real, shape (n,) (rad/s2), counter-clockwise positive."""
-        return self.poses[self.link(link).name].alpha
+        return self.posed.pose(link).alpha
 
     def slide(self, key: str) -> tuple[Array, Array, Array, Array]:
         """Travel, velocity and acceleration of a sliding pair or pin in slot by its key ("2/3", "B/3"), signed along

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 from typing import Any
@@ -180,16 +180,9 @@ class PreparedMechanism:
             last = stop
         return clear, away, np.concatenate([*careful, np.arange(last, len(steps))])
 
-    def _reached(self, steps: GivenValues | UniformGrid, some: Array | None = None) -> Array:
-        """Whether the motion reaches all positions, or some."""
-        reach, some = self.range, np.arange(len(steps)) if some is None else some
-        if not isinstance(steps, UniformGrid):
-            return reach.reaches(reach.offsets(steps.values[some]))
-        if not self.turns:
-            return np.ones(len(some), dtype=bool)  # even steps of a travel lie inside the range
-        offset, (low, high) = reach.table_offsets(steps.n, steps.first + some), reach.ends
-        ahead = offset <= high
-        return ahead if reach.rolls_apart else np.asarray(ahead | (offset >= low + 2 * math.pi))
+    def _reached(self, steps: GivenValues | UniformGrid) -> Array:
+        """Whether the motion reaches each position."""
+        return self.range.reaches(self.range.offsets(steps.values))
 
     # code
 
@@ -248,11 +241,6 @@ class PreparedMechanism:
         """The numbers in which its designs may differ (SI)."""
         return dimensions(self.structure.scene)
 
-    @cached_property
-    def kept(self) -> dict[Hashable, Any]:
-        """Results kept for further use: mechanisms with open numbers, and the numbers that are the same everywhere."""
-        return {}
-
     @kept_with
     def opened(self, names: frozenset[Name], moving: tuple[bool, ...]) -> PreparedMechanism:
         """The mechanism with some numbers of the formulas open, to be given for each design; made once.  ``moving``
@@ -274,11 +262,11 @@ class PreparedMechanism:
     def at(self, value: float) -> tuple[float, ...] | None:
         """The asked quantities at one value of the first driver, in plain floats; None where the position does not
         exist or is a dead point.  With solved quantities the bounds come after them."""
-        return self._by_columns(value) if self.solved else self._one(value)
+        return self._one(value)
 
     @cached_property
     def _one(self) -> Callable[[float], tuple[float, ...] | None]:
-        if self.by_newton:
+        if self.by_newton or self.solved:
             return self._by_columns
         code = self.examined
         function, params, names, count = code.floats, self.given(code), code.inputs, len(self.asked)
@@ -447,7 +435,7 @@ class PreparedMechanism:
 
     def _examined(self, steps: GivenValues | UniformGrid, some: Array) -> tuple[Array, Array]:
         """The columns at positions that are looked at one by one, and whether these exist; NaN where they do not."""
-        reached, count = self._reached(steps, some), len(self.asked)
+        reached, count = self._reached(steps[some]), len(self.asked)
         columns, there = np.full((count, len(some)), np.nan), steps[some[reached]]
         if not len(there):
             return columns, reached

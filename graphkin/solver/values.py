@@ -28,6 +28,7 @@ from graphkin.solver.algebra.pose import Array, Pose, aimed
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import SLIGHT, Motion, listed_points, own_slides
 from graphkin.solver.path.driver_range import DriverRange, extremes, range_of
+from graphkin.solver.quantities import value_of_symbol
 from graphkin.structure import Structure, kept_with, links_for, part_of
 from graphkin.words import Phrase, Wording, listed, say
 
@@ -44,16 +45,23 @@ def exact_values(motion: Motion, symbols: Iterable[Symbol]) -> dict[Symbol, Valu
     CallError : a symbol names nothing here
     Unsolvable : a quantity of the whole turn without a whole turn, a force at a dead point
     """
-    from graphkin.solver.forces import value_of
-
-    values = dict[Symbol, Value]()
-    for symbol in dict.fromkeys(symbols):
-        if symbol.scope == "turn":
+    posed, values = motion.posed, dict[Symbol, Value]()
+    for symbol, scope in {symbol: symbol.scope for symbol in symbols}.items():
+        if scope == "turn":
             values[symbol] = _of_turn(motion, symbol)
-        elif symbol.scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
+        elif scope == "force" and no_force(motion.scene.whole, str(symbol), symbol) is None:
             values[symbol] = _of_forces_here(motion, symbol)
+        elif scope == "cycle":
+            values[symbol] = float(of_cycle(motion, symbol)[0])
         else:
-            exact = value_of(motion, symbol)[0]
+            if scope == "force" or symbol.axis:
+                from graphkin.solver.forces import value_of
+
+                exact = value_of(motion, symbol)[0]
+            else:
+                exact = value_of_symbol(posed, symbol)[0]
+            if symbol.kind == "d" and math.isnan(exact):  # the centre of links at rest: that of any motion
+                exact = motion.value(symbol)[0]
             values[symbol] = complex(exact) if np.iscomplexobj(exact) else float(exact)
     return values
 
@@ -63,8 +71,12 @@ def of_cycle(motion: Motion, symbol: Symbol) -> Array:
 
     Raises
     ------
+    CallError : the scene has no flywheel
     Unsolvable : the driver makes no whole turn
     """
+    problem = no_force(motion.scene, str(symbol), symbol)
+    if problem is not None:
+        raise CallError(problem)
     wheel = flywheel_of(range_of(structure_of(motion.structure)))
     return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, S
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, wraps
-from typing import Any, ClassVar, Concatenate, Literal, ParamSpec, Protocol, TypeAlias, TypeVar
+from typing import Any, ClassVar, Concatenate, Literal, ParamSpec, TypeAlias, TypeVar
 
 from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import added_up
@@ -549,14 +549,7 @@ def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
     )
 
 
-class Keeping(Protocol):
-    """What results are kept with: a structure, a motion, a range."""
-
-    @property
-    def kept(self) -> dict[Hashable, Any]: ...
-
-
-Keeper = TypeVar("Keeper", bound=Keeping)
+Keeper = TypeVar("Keeper")
 Others = ParamSpec("Others")
 Result = TypeVar("Result")
 
@@ -564,14 +557,16 @@ Result = TypeVar("Result")
 def kept_with(
     function: Callable[Concatenate[Keeper, Others], Result]
 ) -> Callable[Concatenate[Keeper, Others], Result]:
-    """A function whose results are made once, and kept with its first argument by the others."""
+    """A function whose results are made once, and kept with its first argument (a structure, a motion, a range) by the
+    others."""
 
     @wraps(function)
     def known(keeper: Keeper, /, *args: Others.args, **named: Others.kwargs) -> Result:
+        kept = vars(keeper).setdefault("kept", {})
         key = function.__module__, function.__qualname__, args, *named.items()
-        if key not in keeper.kept:
-            keeper.kept[key] = function(keeper, *args, **named)
-        result: Result = keeper.kept[key]
+        if key not in kept:
+            kept[key] = function(keeper, *args, **named)
+        result: Result = kept[key]
         return result
 
     return known

@@ -16,6 +16,7 @@ from graphkin.solver import DriverRange, Motion, listed_points, own_slides
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.forces import ends_of, settled_value, value_of
 from graphkin.solver.quantities import all_slides
+from graphkin.solver.values import of_cycle
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording
@@ -33,14 +34,14 @@ def course_of(quantity: Symbol, reach: DriverRange | None, motion: Motion) -> Ar
     if quantity.kind == "theta":
         angle, other = motion.angle if reach is None else partial(reach.angle, motion), quantity.other
         return angle(quantity.link) - angle(other) if other else angle(quantity.link)
-    value = value_of(motion, quantity)
+    value = (of_cycle if quantity.scope == "cycle" else value_of)(motion, quantity)
     return np.abs(value) if quantity.is_vector else np.asarray(value.real)
 
 
 def parts_of(quantity: Symbol, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
     """The values of a quantity in a motion (alone, or of a range) in the table's units, 0 where they are rounding
     alone: one array, or a vector's components."""
-    if quantity.is_angle_of_link:
+    if quantity.is_angle_of_link or quantity.scope == "cycle":
         value = motion.settled(course_of(quantity, reach, motion), quantity.measure)
     else:
         value = settled_value(motion, quantity)
@@ -88,19 +89,20 @@ def _bound(quantity: Symbol, motion: Motion) -> Array:
 
 def link_quantities(link: str) -> tuple[Symbol, Symbol, Symbol]:
     """Angle, angular velocity and angular acceleration of a link."""
-    return Symbol("theta", link=link), Symbol("omega", link=link), Symbol("alpha", link=link)
+    return rates_of(Symbol("theta", link=link))
 
 
 def slide_quantities(key: str) -> tuple[Symbol, Symbol, Symbol]:
     """Travel, velocity and acceleration of a sliding pair."""
     sliding, _, guiding = key.partition("/")
-    at = Symbol("s", link=sliding, other=guiding)
-    return at, replace(at, kind="v"), replace(at, kind="a")
+    return rates_of(Symbol("s", link=sliding, other=guiding))
 
 
 def rates_of(quantity: Symbol) -> tuple[Symbol, Symbol, Symbol]:
-    """Position, rate and second rate of what an angle, a travel or a rate of one belongs to."""
-    return slide_quantities(quantity.pair) if quantity.other else link_quantities(quantity.link)
+    """Position, rate and second rate of the point, the sliding pair or the link of a quantity."""
+    kinds = "place v a" if quantity.of else "s v a" if quantity.other else "theta omega alpha"
+    position, rate, second = (replace(quantity, kind=kind) for kind in kinds.split())
+    return position, rate, second
 
 
 def all_that_moves(structure: Structure) -> tuple[Symbol, ...]:
@@ -109,7 +111,7 @@ def all_that_moves(structure: Structure) -> tuple[Symbol, ...]:
     found = [q for link in scene.links for q in link_quantities(link.name)]
     for ref, _ in listed_points(scene, slides):
         if ref.link or ref.point not in scene.frame.points:
-            found += [Symbol(kind, ref) for kind in (("v", "a") if ref.link else ("place", "v", "a"))]
+            found += rates_of(Symbol("place", ref))[1 if ref.link else 0 :]
     found += [q for slide in slides for q in slide_quantities(slide.key)]
     return *dict.fromkeys(found), *forces_named(scene)
 
@@ -143,6 +145,4 @@ def motion_table(
 
 def word_column(name: str, words: Words, n: int) -> Column:
     """A column of words; a single one stands in every row."""
-    values = np.empty(n, dtype=object)
-    values[:] = str(words[0]) if len(words) == 1 else [str(word) for word in words]
-    return Column(name, values)
+    return Column(name, np.full(n, [*map(str, words)], object))

@@ -200,7 +200,13 @@ def test_every_method_is_a_point_of_the_chart(kind: str, order: int) -> None:
 
 
 def test_the_table_has_a_row_for_every_method_and_the_floor() -> None:
-    assert 2 + len(raced().entries) == len(race_table(raced()).csv().splitlines())
+    found = raced()
+    floor, first, *others = race_table(found).texts()
+    entry = found.entries[0]
+    numbers = [*zip(entry.costs, entry.errors, strict=True)]
+    assert len(found.entries) == 1 + len(others)
+    assert ("copying", "", "floor", f"{found.copying[0]:.3g}", "", f"{found.copying[1]:.3g}", "") == floor
+    assert [f"{number:.3g}" for pair in numbers for number in pair] == list(first[3:])
 
 
 def test_the_result_gives_a_method_by_its_name() -> None:

@@ -9,7 +9,6 @@ from collections.abc import Container, Hashable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal
-from typing import Any
 
 from graphkin.scene.model import Driver
 from graphkin.scene.pairs import LawCam, Pair
@@ -266,7 +265,6 @@ class DimensionedProgram:
 
     program: Program
     structure: Structure
-    kept: dict[Hashable, Any] = field(default_factory=dict)
     _found: dict[Name, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

@@ -10,10 +10,10 @@ Quantities of the whole turn: stroke of a slide, swing of a link, coefficient of
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -187,11 +187,6 @@ class DriverRange:
     behind: Path
     wide: float
     turns: int
-
-    @cached_property
-    def kept(self) -> dict[Hashable, Any]:
-        """Results of the whole range kept for further use: strokes, the flywheel."""
-        return {}
 
     @property
     def scene(self) -> Mechanism:
@@ -447,10 +442,10 @@ class _Turned(Mapping[str, Array]):
         return turned if ahead.all() else np.where(ahead, turned, self.range.behind.turned_of(link, s))
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self.range.ahead.turned(np.zeros(1)))
+        return iter(self.range.ahead.angles)
 
     def __len__(self) -> int:
-        return len(self.range.ahead.turned(np.zeros(1)))
+        return len(self.range.ahead.angles)
 
     def __reduce__(self) -> tuple[type, tuple[dict[str, Array]]]:
         return dict, (dict(self),)

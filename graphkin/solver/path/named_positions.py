@@ -54,8 +54,7 @@ def _value(reach: DriverRange, place: float | StrokeStart | None) -> float:
     assert place is not None
     if not isinstance(place, StrokeStart):
         return place
-    sliding, guiding = place.stroke.split("/")
-    limits = extremes(reach, Symbol("stroke", link=sliding, other=guiding))
+    limits = extremes(reach, Symbol.parse(f"stroke_{place.stroke}"))
     ends = (limits.low_offset, limits.low), (limits.high_offset, limits.high)
     (begin, start), (end, _) = ends if place.sense > 0 else ends[::-1]
     span, goal = (end - begin) % math.tau, start + place.sense * place.at * limits.stroke
