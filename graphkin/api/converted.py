@@ -129,9 +129,9 @@ def _bodies(scene: Mechanism) -> Bodies:
     made = Bodies(scene.question.title, unit=scene.units.length)
     for point, place in scene.frame.points.items():
         made.point(point, place / unit)
-    for ref, link in solver.listed_points(scene, motion.slides):
+    for ref, name in solver.listed_points(scene, motion.slides):
         if not ref.link and ref.point not in made.places:
-            made.point(ref.point, complex((motion.point(ref.point, link).z / unit)[0]))
+            made.point(ref.point, complex((motion.point(ref.point, name).z / unit)[0]))
     made.body(FRAME, scene.frame.points)
     poses = {scene.frame.name: (0j, 1 + 0j)}
     for link in scene.links:
