@@ -330,7 +330,7 @@ def solve(
     problems: list[Problem] = []
     for name in solved.find:
         try:
-            _ = solved.first[name], solved.first.columns(name)
+            solved.first.columns(name)
         except CallError as error:
             problems += error.problems
     if problems:
