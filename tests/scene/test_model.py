@@ -137,3 +137,7 @@ def test_a_pair_has_the_guide_of_its_link_also_where_other_numbers_replace_it() 
     mechanism = mechanism_of_text(DRIVEN_PIN, "driven pin")
     lower = with_dimensions(mechanism, {("through", "0", "h"): -5e-3j})
     assert [0j, -5e-3j] == [made.slides[0].guide.through for made in (mechanism, lower)]
+
+
+def test_values_of_the_drivers_are_by_their_keys_in_the_order_of_the_file() -> None:
+    assert {"2": 0.5, "7/6": 0.25} == mechanism_of("loader-cylinder").by_driver(np.array([0.5, 0.25]))
