@@ -26,7 +26,7 @@ from graphkin.scene.symbol import KINDS
 from graphkin.structure.loops import Loop, LoopArrow, LoopBlock, Root, loops_in_numbers
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, listed, rich_text, say, word
-from graphkin.words.symbols import Atom, RichText, Words, plain, rate, sign, spaced, stretches
+from graphkin.words.symbols import RichText, Words, notation, plain, rate, sign, spaced, stretches
 
 if TYPE_CHECKING:
     from graphkin.solver import Motion
@@ -94,24 +94,20 @@ def _angle(arrow: LoopArrow) -> tuple[str, RichText]:
 
 def root(solution: Root, scene: Mechanism, language: str) -> RichText:
     """The closed-form root with the sign of its assembly."""
-    metres = scene.units.metres
-    assembly = "+" if solution.sign >= 0 else "−"
     kind, of = solution.unknown
     name = sign("θ", of) if kind == "angle" else sign("s", of.replace("/", ""))
 
-    def shown(value: float, power: int) -> str:
-        return number(value / metres**power if abs(value) > ROUNDING * scene.size**power else 0.0, MORE)
+    def shown(value: float, power: int, carried: int = MORE) -> str:
+        rounded = abs(value) <= ROUNDING * scene.size**power
+        return number(0.0 if rounded else value / scene.units.metres**power, carried)
 
-    if solution.key == "loop root angle":
-        a, b, c = (shown(x, 2) for x in solution.numbers)
-        angle = number(math.degrees(solution.value), 7)
-        return rich_text(Phrase(solution.key, unknown=name, A=a, B=b, C=c, sign=assembly, value=angle), language)
-    value = number(solution.value / metres if abs(solution.value) > ROUNDING * scene.size else 0.0, 7)
-    if solution.key == "loop root lines":
-        return rich_text(Phrase(solution.key, unknown=name, value=value, unit=scene.units.length), language)
-    middle, rest = (shown(x, power) for power, x in enumerate(solution.numbers[:2], 1))
-    numbers = {"middle": middle, "sign": assembly, "rest": rest, "value": value}
-    return rich_text(Phrase(solution.key, unknown=name, **numbers, unit=scene.units.length), language)
+    angle = solution.key == "loop root angle"
+    powers = {"A": 2, "B": 2, "C": 2} if angle else {"middle": 1, "rest": 2}
+    numbers = zip(powers.items(), solution.numbers, strict=False)
+    gaps = {gap: shown(value, power) for (gap, power), value in numbers}
+    gaps["sign"] = "+" if solution.sign >= 0 else "−"
+    gaps["value"] = number(math.degrees(solution.value), 7) if angle else shown(solution.value, 1, 7)
+    return rich_text(Phrase(solution.key, unknown=name, **gaps, unit=scene.units.length), language)
 
 
 def _plain_name(unknown: Coordinate) -> str:
@@ -176,7 +172,7 @@ _SIGNS = str.maketrans({sign: command for sign, command in _IN_LATEX.items() if 
 def as_latex(line: Words) -> str:
     """A line as LaTeX, all of it in mathematics."""
     return "".join(
-        _symbol_in_latex(part) if not isinstance(part, str)
+        notation(part, _IN_LATEX) if not isinstance(part, str)
         else " ".join(_IN_LATEX.get(text) or _word_in_latex(text) for text in part.split(" "))
         for part in stretches(line)
     )
@@ -187,16 +183,6 @@ def _word_in_latex(text: str) -> str:
     for raised, signs in groupby(text, _LOWERED.__contains__):
         part = "".join(signs)
         written += f"^{{{''.join(_LOWERED[sign] for sign in part)}}}" if raised else part.translate(_SIGNS)
-    return written
-
-
-def _symbol_in_latex(atoms: Sequence[Atom]) -> str:
-    written = ""
-    for atom in atoms:
-        letter = _IN_LATEX.get(atom.text, atom.text)
-        letter = rf"\mathbf{{{letter}}}" if atom.bold else rf"\vec{{{letter}}}" if atom.arrow else letter
-        above, below = (_symbol_in_latex(part) for part in (atom.sup, atom.sub))
-        written += letter + (f"^{{{above}}}" if above else "") + (f"_{{{below}}}" if below else "")
     return written
 
 

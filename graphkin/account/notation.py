@@ -1,5 +1,4 @@
-"""The notation of each school: poles, end points, component marks, directions, instant centres, scale statements,
-forces.
+"""The notation of each school: poles, end points, component marks, directions, centres, scale statements, forces.
 
 Chinese: Sun Huan,
 Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of Machines; russian:
@@ -91,14 +90,16 @@ class Notation:
 
     def _on_link(self, ref: PointRef) -> PointRef:
         """A point with the link of its index."""
-        block = "" if ref.link else self.blocks.get(ref.point, "")
-        return PointRef(ref.point, block) if block else ref
+        return PointRef(ref.point, ref.link or self.blocks.get(ref.point, ""))
+
+    def _indexed(self, ref: PointRef, *more: str) -> tuple[str, str]:
+        """The letter of a point and its index: its digits, its link where coincident points are distinguished."""
+        letter, rest = _parted(ref.point)
+        return letter, ",".join(filter(None, (rest, self._on_link(ref).link, *more)))
 
     def coincident(self, ref: PointRef) -> RichText:
         """A point, with the link as a further index where coincident points are distinguished: ``B_2``, ``O_4,2``."""
-        letter, rest = _parted(ref.point)
-        link = ref.link or self.blocks.get(ref.point, "")
-        return sign(letter, f"{rest},{link}" if rest and link else rest + link)
+        return sign(*self._indexed(ref))
 
     def arrow(self, symbol: Symbol) -> RichText:
         """A vector as such, in an equation or at its arrow."""
@@ -129,17 +130,14 @@ class Notation:
         return sign("−") + vector if term.turned else vector
 
     def end(self, diagram: DiagramName, ref: PointRef) -> RichText:
-        """The end point of a vector from the pole: small letter, primed in the acceleration polygon; in the us
-        convention the vector is named instead."""
+        """The end point of a vector from the pole: a small letter, primed for accelerations; us names the vector."""
         if self.convention == "us":
             return RichText()
-        letter, rest = _parted(ref.point)
-        link = ref.link or self.blocks.get(ref.point, "")
-        if not rest and not link and letter.lower() == str(_POLES[self.convention][0]):
+        letter, index = self._indexed(ref)
+        if not index and letter.lower() == str(_POLES[self.convention][0]):
             # the pole has this letter already; O of link 4 is not the point O4
             holders = self.holders[ref.point]
-            link = next((name for name in holders if ref.point + name not in self.holders), holders[0])
-        index = f"{rest},{link}" if rest and link else rest + link
+            index = next((name for name in holders if ref.point + name not in self.holders), holders[0])
         name = sign(letter.lower(), index)
         return name + sign("'") if diagram == "acceleration" else name
 
@@ -153,8 +151,7 @@ class Notation:
         if self.convention == "us" or role not in marks:
             return RichText()
         if self.convention == "british":
-            letter, rest = _parted(end.point)
-            index = ",".join(filter(None, (rest, end.link or self.blocks.get(end.point, ""), str(number))))
+            letter, index = self._indexed(end, str(number))
             return sign(letter.lower(), index) + sign("'")
         indexed = link and (not alone or (self.convention == "chinese" and role == "normal"))
         return sign(marks[role], link if indexed else "") + sign("'")

@@ -6,11 +6,12 @@ theirs between dollar signs, which are read with the table: ``$C_{1}$``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+_TYPED = {"′": "'"}
 
 
 class Atom(NamedTuple):
@@ -74,7 +75,7 @@ class RichText:
         raise TypeError("rich text is joined with +, which keeps its symbols, or made plain by str()")
 
     def __repr__(self) -> str:
-        shown = (part if isinstance(part, str) else f"${_notation(part)}$" for part in stretches(self))
+        shown = (part if isinstance(part, str) else f"${notation(part, _TYPED)}$" for part in stretches(self))
         return "".join(shown)
 
     @property
@@ -179,13 +180,13 @@ def _plain(part: Atom, index: str) -> str:
     return part.text + (f"^{above}" if above else "") + below
 
 
-def _notation(atoms: Iterable[Atom]) -> str:
-    """Atoms in the notation of tables, with ``\\mathbf`` and ``\\vec`` for the marks of vectors."""
+def notation(atoms: Iterable[Atom], letters: Mapping[str, str]) -> str:
+    """Atoms as tables and LaTeX write them, vectors with ``\\mathbf``, ``\\vec``; some ``letters`` otherwise."""
     written = ""
     for atom in atoms:
-        letter = "'" if atom.text == "′" else atom.text
+        letter = letters.get(atom.text, atom.text)
         letter = rf"\mathbf{{{letter}}}" if atom.bold else rf"\vec{{{letter}}}" if atom.arrow else letter
-        above, below = _notation(atom.sup), _notation(atom.sub)
+        above, below = (notation(part, letters) for part in (atom.sup, atom.sub))
         written += letter + (f"^{{{above}}}" if above else "") + (f"_{{{below}}}" if below else "")
     return written
 

@@ -56,3 +56,12 @@ def test_a_chosen_loop_goes_along_guides_to_the_pins_on_them() -> None:
     link, slide = position["links"]["3"], position["slides"]["2/3"]
     assert [link["omega"], slide["velocity"]] == pytest.approx(block["rates"])
     assert [link["alpha"], slide["acceleration"]] == pytest.approx(block["second_rates"])
+
+
+@pytest.mark.parametrize(("root", "scene"), [
+    ("s_34 = −25 + √(25057.0508) = 133.2942 mm", "slider-crank-offset"),
+    ("θ_1 = 2 atan2(B − √(A² + B² − C²), A + C) = 29.79377° with A = −160000, B = 240000, C = −19600",
+     "hydraulic-cylinder"),
+])
+def test_the_root_of_a_loop_stands_in_the_units_of_the_file(root: str, scene: str) -> None:
+    assert root in [line.strip() for line in graphkin.solve(scene).loops().plain.split("\n")]
