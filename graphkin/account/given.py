@@ -58,8 +58,7 @@ def drivers(sheet: Sheet, letters: Notation) -> RichText:
 
 
 def rolling_starts(sheet: Sheet) -> list[RichText]:
-    """The starts of links that move each other by rolling, at the scene's own position: ``φ_3 = 60° (φ_1 =
-    50°)``."""
+    """The starts of links that move each other by rolling, at the scene's position: ``φ_3 = 60° (φ_1 = 50°)``."""
     scene, parts = sheet.scene, []
     own = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
     for group in sheet.structure.elements:
@@ -73,8 +72,7 @@ def rolling_starts(sheet: Sheet) -> list[RichText]:
 
 
 def rolled_starts(sheet: Sheet) -> list[RichText]:
-    """The starts of links that only follow by rolling, as in `rolling_starts`: of a wheel that has but its axis none
-    counts."""
+    """The starts of links that only follow by rolling, as in `rolling_starts`; of a wheel with but its axis none."""
     scene = sheet.scene
     own = spaced(", ", (_stands(sheet, driver, driver.values[0]) for driver in scene.drivers))
     told = []
@@ -129,8 +127,7 @@ def given_lengths(scene: Mechanism, letters: Notation) -> list[tuple[RichText, s
 
 
 def given_teeth(scene: Mechanism, language: str) -> list[RichText]:
-    """The numbers of teeth, each wheel once; for a wheel with several numbers with the gear.  Internal teeth are
-    marked."""
+    """The numbers of teeth, each wheel once; with its gear where it has several.  Internal teeth are marked."""
     found: dict[str, RichText] = {}
     for gear in scene.gears:
         for wheel, teeth in zip(gear.bodies, gear.teeth, strict=True):
@@ -156,8 +153,7 @@ def _further(link: PlacedLink, scene: Mechanism, letters: Notation) -> list[tupl
 
 
 def fixed_guides(scene: Mechanism, letters: Notation) -> list[tuple[RichText, str, str]]:
-    """The guides of the frame that have a name: symbol, coordinates of a point of each in the scene's unit, in
-    brackets, and direction (degrees)."""
+    """The named guides of the frame: symbol, coordinates of a point (scene unit) in brackets, direction (degrees)."""
     return [
         (letters.guide(guide.name, scene.frame.name), place_of(guide.through, scene),
          number(degrees(guide.direction)))
@@ -194,8 +190,7 @@ def given_shapes(scene: Mechanism, letters: Notation, language: str) -> list[Ric
 
 def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Phrase]:
     pairs = along_its_guide(scene, link)
-    axis = _axis(scene, link, pairs, letters)
-    turn = pairs[0].turn if pairs and len(link.bar) < 2 else 1.0 + 0j
+    axis, turn = _axis(scene, link, letters), _turn(scene, link)
     if len(pairs) == 2:
         first, second = (_guide_name(scene, pair, letters) for pair in pairs)
         angle = number(as_line(pairs[0].turn / pairs[1].turn))
@@ -211,8 +206,7 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Ph
         z = link.points[point]
         name = letters.point(point)
         if pairs:
-            place, origin = _place(z * turn, scene), _origin(link, letters)
-            yield Phrase("point along", point=name, place=place, origin=origin, axis=axis)
+            yield Phrase("point along", point=name, **_along(scene, link, z, letters))
         else:
             bar = letters.bar((link.bar[0], point)) if link.bar else name
             yield Phrase("held at angle", bar=bar, angle=number(degrees(z)), axis=axis)
@@ -230,8 +224,7 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Ph
             through = letters.point(on)
             yield Phrase("guide on link through", guide=name, link=link.name, point=through, angle=angle, axis=axis)
         else:
-            place = _place(guide.through * turn, scene)
-            at = {"place": place, "origin": _origin(link, letters), "axis": axis}
+            at = _along(scene, link, guide.through, letters)
             yield Phrase("guide on link at", guide=name, link=link.name, **at, angle=angle)
 
 
@@ -285,28 +278,32 @@ def _own(link: PlacedLink, letters: Notation) -> Words:
     return letters.bar(link.bar) if len(link.bar) == 2 else link.name
 
 
-def _axis(scene: Mechanism, link: PlacedLink, pairs: list[Pair], letters: Notation) -> Wording:
+def _axis(scene: Mechanism, link: PlacedLink, letters: Notation) -> Wording:
     """The line from which angles on a link count: its bar, the guide on which it slides, else its own axis."""
     if len(link.bar) == 2:
         return _own(link, letters)
+    pairs = along_its_guide(scene, link)
     return _guide_name(scene, pairs[0], letters) if pairs else Phrase("axis of", link=link.name)
 
 
-def _origin(link: PlacedLink, letters: Notation) -> Words:
-    """The origin of a link's own axes."""
-    return letters.point(link.bar[0]) if link.bar else f"({link.name})"
+def _turn(scene: Mechanism, link: PlacedLink) -> complex:
+    """The direction of a link's own axis from that line."""
+    pairs = along_its_guide(scene, link)
+    return pairs[0].turn if pairs and len(link.bar) < 2 else 1.0 + 0j
 
 
-def _place(z: complex, scene: Mechanism) -> str:
-    return f"{place_of(z, scene)} {scene.units.length}"
+def _along(scene: Mechanism, link: PlacedLink, z: complex, letters: Notation) -> dict[str, Wording]:
+    """A place in a link's own axes (m): along that line and to the left of it, and the origin."""
+    place = f"{place_of(z * _turn(scene, link), scene)} {scene.units.length}"
+    origin = letters.point(link.bar[0]) if link.bar else f"({link.name})"
+    return {"place": place, "origin": origin, "axis": _axis(scene, link, letters)}
 
 
 # masses, loads and springs
 
 
 def given_loads(sheet: Sheet, letters: Notation) -> list[Phrase]:
-    """Masses, weights, inertias, loads, springs and the balancing load, a line for each kind; the direction of weights
-    where they do not pull down."""
+    """A line for each kind: masses, weights (with their direction unless down), inertias, loads, springs, balance."""
     scene, loading = sheet.scene, sheet.scene.loading
     masses, aslant = list(_masses(scene, letters)), degrees(loading.gravity or -1j)
     balance = loading.balance
@@ -339,12 +336,7 @@ def _place_on(scene: Mechanism, name: str, at: complex, letters: Notation) -> Wo
     """A place in a link's own axes (m): the point that lies there, else along the link's axis and to the left of it."""
     link = scene.by_name[name]
     point = next((p for p, z in link.points.items() if z == at), "")
-    if point:
-        return letters.point(point)
-    pairs = along_its_guide(scene, link)
-    turn = pairs[0].turn if pairs and len(link.bar) < 2 else 1.0 + 0j
-    axis = _axis(scene, link, pairs, letters)
-    return Phrase("place along", place=_place(at * turn, scene), origin=_origin(link, letters), axis=axis)
+    return letters.point(point) if point else Phrase("place along", **_along(scene, link, at, letters))
 
 
 def _load(scene: Mechanism, load: LoadOn, letters: Notation) -> Phrase:

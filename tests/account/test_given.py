@@ -40,6 +40,7 @@ CARRIAGE = {
     "driver": {"slide": "1", "travel": 20, "velocity": 50, "acceleration": -100},
     "sketch": {"B": [-20, 70]},
 }
+ACROSS = {**CARRIAGE, "links": {**CARRIAGE["links"], "1": {**CARRIAGE["links"]["1"], "angle_on": 90}}}
 ARM = {  # a guide bar with an arm beside its axis
     "frame": {"points": {"A": [0, 80], "C": [0, 0]}},
     "links": {
@@ -73,6 +74,7 @@ def given(scene, language="en"):
         (["guide 3 at 60° to guide 1"], OLDHAM),
         (["guide $s$ on 3: (−6, 0.5) in from $C$ along $x$, 70° to it"], YOKE),
         (["$Q$ (70, 30) mm from $P$ along $h$"], CARRIAGE),
+        (["$Q$ (−30, 70) mm from $P$ along $h$"], ACROSS),
         (["$CD$ at −130° to the axis of 3"], ARM),
         (["guide $s$ on 3: (−140, 0) mm from $C$ along $x$, 90° to it"], "scotch-yoke"),
         (["the axis of 3 at 90° to $y$"], "sine-mechanism"),
