@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, replace
 
 from graphkin import table
 from graphkin.account.account import telling, why
@@ -26,11 +26,9 @@ from graphkin.account.given import (
 )
 from graphkin.account.headings import FIGURE_WORDS, number, titles
 from graphkin.account.notation import pole, scale_statement
-from graphkin.account.voice import whole_sentence
 from graphkin.checking.report import COVERAGE, Compared, exact, measured, paper
 from graphkin.construction.board.steps import DiagramName, PointNames
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.constructions import cam_given
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
 from graphkin.drawing.figures.train import PLAN_WORDS, train_pages
@@ -48,16 +46,16 @@ from graphkin.papers.blocks import (
     StepItem,
     TableBlock,
     Together,
+    finished,
     in_each,
     numbered,
     once,
-    said,
     said_each,
     sentences,
     table_of,
 )
 from graphkin.papers.lesson import Lesson, Stage
-from graphkin.papers.paper import A4, Paper, paper_of
+from graphkin.papers.paper import A4, Paper
 from graphkin.plane import added_up, degrees
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -75,9 +73,9 @@ ROOM_BETWEEN = 8.0  # mm around what stands on a page
 
 def problem(lesson: Lesson) -> Document:
     """The problem sheet of a lesson."""
-    language, paper = lesson.language, paper_of(lesson.sheet.scene)
+    language, paper = lesson.language, lesson.paper
     bare = pictures.mechanism_picture(lesson)
-    how = sentences(*(said(key, language) for key in ("solve here", "print true", "sense words")))
+    how = sentences(*(lesson.said(key) for key in ("solve here", "print true", "sense words")))
     words = (*task(lesson), Paragraph(how, small=True))
     moving = [d for d in pictures.POLYGONS if lesson.sheet.vectors[d]]
     shown = all(_space(lesson, bare, [d], paper) for d in moving)
@@ -104,13 +102,13 @@ def problem(lesson: Lesson) -> Document:
         Heading(scene_title(lesson), 1),
         Fields(said_each(language, ("name of student", "class of student", "date"))),
         *first,
-        Together((Heading(said("your results", language)), blank)),
+        Together((Heading(lesson.said("your results")), blank)),
         *before,
-        Paragraph(said("your sums", language), small=True, fills=True),
+        Paragraph(lesson.said("your sums"), small=True, fills=True),
         *after,
         *_forces(lesson, bare, paper),
     )
-    return Document(paper_title(lesson, "problem sheet"), languages(language), whole, paper, paper.folded)
+    return replace(document(lesson, "problem sheet", whole), paper=paper, folded=paper.folded)
 
 
 def _space(
@@ -125,7 +123,7 @@ def _polygon_pages(
 ) -> tuple[list[Block], list[Block]]:
     """The equations before the sums, and a page for each polygon, or one for both."""
     drawn = [d for d in pictures.POLYGONS if any(e.diagram == d for e in lesson.sheet.equations)]
-    names = {d: said(FIGURE_WORDS[d], lesson.language) for d in drawn}
+    names = {d: lesson.said(FIGURE_WORDS[d]) for d in drawn}
     room = paper.body.width / 2 - ROOM_BETWEEN if paper.folded else paper.body.width
     asked = {d: _equations(lesson, d, min(room, A4.body.width)) for d in drawn}
     frames = {d: _space(lesson, bare, [d], paper, _height(asked[d]) + ROOM_BETWEEN) for d in drawn if both is None}
@@ -148,7 +146,7 @@ def _polygon_pages(
 def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
     """The poles from which polygons are to be drawn."""
     poles = [pole(lesson.letters.convention, diagram) for diagram in diagrams]
-    return Paragraph(said(about("your polygon", poles), lesson.language, poles=listed(poles)), small=True)
+    return Paragraph(lesson.said(about("your polygon", poles), poles=listed(poles)), small=True)
 
 
 def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Paragraph | Picture, ...]:
@@ -159,7 +157,7 @@ def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Para
     if lesson.level == "easy":
         return tuple(Picture(pictures.equation_picture(lesson, e)) for e in equations)
     blank = pictures.blank_equations(lesson, equations, width)
-    return Paragraph(said("your equations", lesson.language), small=True), Picture(blank)
+    return Paragraph(lesson.said("your equations"), small=True), Picture(blank)
 
 
 def _height(asked: Sequence[Paragraph | Picture]) -> float:
@@ -170,16 +168,15 @@ def _height(asked: Sequence[Paragraph | Picture]) -> float:
 def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
     """The equations of the groups cut free, and room for their polygons beside the mechanism, from which directions and
     arms are taken; the equations are on a page before if both do not fit on one."""
-    language = lesson.language
     if not lesson.sheet.forces:
         return
-    heading = said("forces", language)
+    heading = lesson.said("forces")
     counts = [len(g.polygon) for g in lesson.sheet.forces[0].groups if g.way != "drawn system" and len(g.polygon) > 1]
     asked: tuple[Paragraph | Picture, ...] = ()
     if counts and lesson.level != "hard":
         sums = [(count, ["+"] * (count - 1), "= 0") for count in counts]
         blank = pictures.blanks(lesson, sums, min(paper.body.width, A4.body.width))
-        asked = (Paragraph(said("your force equations", language), small=True), Picture(blank))
+        asked = (Paragraph(lesson.said("your force equations"), small=True), Picture(blank))
     page = Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - ROOM_BETWEEN)
     beside = page.height - _height(asked) >= pictures.LEAST_FRAME
     if not beside:
@@ -188,13 +185,13 @@ def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
     yield Heading(heading, fresh=True)
     yield from asked if beside else ()
     drawn = pictures.force_space(lesson, bare, room)
-    yield Together((Paragraph(said("your forces", language), small=True), Picture(drawn)))
+    yield Together((Paragraph(lesson.said("your forces"), small=True), Picture(drawn)))
 
 
-def paper_title(lesson: Lesson, key: str) -> str:
-    """The title of a paper, in the first language: the scene's title and the name of the paper."""
-    first = languages(lesson.language)[0]
-    return str(scene_title(lesson)[0][1]) + word("colon", first) + word(key, first)
+def document(lesson: Lesson, key: str, blocks: Iterable[Block]) -> Document:
+    """A paper of a lesson; its title is that of the scene and its own name, in the first language."""
+    title = str(scene_title(lesson)[0][1]) + word("colon", lesson.first) + word(key, lesson.first)
+    return Document(title, languages(lesson.language), tuple(blocks), lesson.paper)
 
 
 def scene_title(lesson: Lesson) -> Said:
@@ -240,7 +237,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     for cam in scene.whole.cams:
         laws = ((each, Phrase("given cam", link=cam.link, law=Neutral(cam_given(scene.whole, cam, each))))
                 for each in languages(language))
-        yield Paragraph(tuple((each, whole_sentence(rich_text(law, each), each)) for each, law in laws))
+        yield Paragraph(finished(tuple((each, rich_text(law, each)) for each, law in laws)))
         for point in scene.by_name[cam.link].points:
             if point not in scene.whole.by_name[cam.link].points:
                 yield Paragraph(lesson.sentence(Phrase("centre of cam", point=PointNames((point,)), link=cam.link)))
@@ -252,7 +249,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     for load in given_loads(lesson.sheet, letters) if scene.loading else ():
         if load.key == "given balance" and scene.question.find:
             continue  # what is asked for stands below
-        yield Paragraph(tuple((each, whole_sentence(rich_text(load, each), each)) for each in languages(language)))
+        yield Paragraph(lesson.sentence(load))
 
 
 def task_with_source(lesson: Lesson) -> Iterator[Paragraph]:
@@ -405,33 +402,30 @@ def results_table(lesson: Lesson, *keys: str) -> TableBlock:
 
 def answer_key(lesson: Lesson) -> Document:
     """The answer key of a lesson."""
-    language, tools = lesson.language, lesson.sheet.scene.question.sheet.tools
-    words = said(
-        "key words", language, points=f"{tools.line_width / 2:g}", ruler=f"{tools.ruler:g}",
+    tools = lesson.sheet.scene.question.sheet.tools
+    words = lesson.said(
+        "key words", points=f"{tools.line_width / 2:g}", ruler=f"{tools.ruler:g}",
         compass=f"{tools.compass:g}", directions=f"{tools.set_square:g}",
     )
-    blocks: tuple[Block, ...] = (
+    return document(lesson, "answer key", (
         Heading(scene_title(lesson), 1),
-        Heading(said("answer key", language)),
+        Heading(lesson.said("answer key")),
         *reach(lesson),
         results_table(lesson, "quantity", "on paper", "value", "tolerance", "accept", "unit", "sense"),
-        Paragraph(sentences(words, said("sense words", language)), small=True),
-    )
-    return Document(paper_title(lesson, "answer key"), languages(language), blocks, paper_of(lesson.sheet.scene))
+        Paragraph(sentences(words, lesson.said("sense words")), small=True),
+    ))
 
 
 def key_table(lesson: Lesson) -> table.Table:
     """The key as a table, in scene units."""
     heads = ("symbol", "unit", "asked", "on_paper_mm", "exact", "tolerance", "direction_deg")
-    rows = ((r.symbol, r.unit, r.asked, r.on_paper, r.exact, r.tolerance, r.direction) for r in key_rows(lesson))
-    return table.Table.of(heads, rows, ("", "", "", "", ".9g", ".3g", ".3f"))
+    return table.Table.of(heads, map(astuple, key_rows(lesson)), ("", "", "", "", ".9g", ".3g", ".3f"))
 
 
 def answers_template(
     asked: Sequence[Symbol], units: Units, language: str, lines: Iterable[Sequence[str]] = (("", ""),), *more: str
 ) -> table.Table:
-    """A table for a class to fill in, as ``audit`` reads it: after names and numbers a column for each asked quantity,
-    and for a vector its direction.
+    """A table for a class to fill in, as ``audit`` reads it: names, numbers, each quantity, for a vector its direction.
 
     Parameters
     ----------
@@ -482,14 +476,12 @@ MANY = 6  # steps that stand in two columns above their figure
 def solution(lesson: Lesson, worked: Iterable[Block] | None = None) -> Document:
     """The worked solution of a lesson; ``worked`` are its stages, if they are made already."""
     stages = solution_blocks(lesson, beginning(lesson)) if worked is None else worked
-    blocks = (Heading(scene_title(lesson), 1), *stages, *results_blocks(lesson))
-    title = paper_title(lesson, "worked solution")
-    return Document(title, languages(lesson.language), blocks, paper_of(lesson.sheet.scene))
+    return document(lesson, "worked solution", (Heading(scene_title(lesson), 1), *stages, *results_blocks(lesson)))
 
 
 def beginning(lesson: Lesson) -> tuple[Paragraph, ...]:
     """The given data, and a note on the numbers of the steps."""
-    return (*task_with_source(lesson), Paragraph(said("bracket words", lesson.language), small=True))
+    return (*task_with_source(lesson), Paragraph(lesson.said("bracket words"), small=True))
 
 
 def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
@@ -497,7 +489,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     layers: dict[str, pictures.Layers] = {}
     first: int | None = None  # of steps that the next figure of their diagram shows too
     # velocity plans of what rolls, and those of the tangential accelerations, each a figure
-    plans = train_pages(FigurePage(lesson.sheet, "plan", lesson.language, lesson.letters))
+    plans = train_pages(lesson.page("plan"))
     pages = [[plans.pop(n) for n in dict.fromkeys(step.plan for step in stage.steps) if n in plans]
              for stage in lesson.stages]
     drawn = iter([stage for stage in lesson.stages if not stage.of_plans][1:])
@@ -533,7 +525,7 @@ def _plan_blocks(
     lesson: Lesson, order: str, pages: Iterable[Drawing], count: int, stage: Stage | None = None
 ) -> Iterator[Heading | StepItem | Picture]:
     """The pages of velocity plans with their steps, none where no part of them moves, after ``count`` figures."""
-    title = said(PLAN_WORDS[order], lesson.language)
+    title = lesson.said(PLAN_WORDS[order])
     yield Heading(title)
     if stage is not None:
         yield from step_items(lesson, stage, len(stage.steps) > 1)
@@ -543,26 +535,25 @@ def _plan_blocks(
 
 
 def force_stages_of(lesson: Lesson) -> Iterator[tuple[ForceStage, Said, tuple[StepItem, ...]]]:
-    """The stages of the forces, each with the load that its steps tell from those without it (none where there is but
-    one), and its steps."""
+    """The stages of the forces, each with its load, which tells it from those without (none for one), and its steps."""
     sheet, language = lesson.sheet, lesson.language
     for stage in force_stages(lesson.account):
         several = len(sheet.forces) > 1 and bool(stage.group.links)
-        load = said("force with load" if stage.again else "force without load", language) if several else ()
+        load = lesson.said("force with load" if stage.again else "force without load") if several else ()
         steps = ((told.step.number, in_each(language, told.sentence), told.work_in(language)) for told in stage.steps)
         yield stage, load, tuple(StepItem(*step) for step in steps)
 
 
 def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     """Force polygons group by group, and Zhukovsky's lever; ``count`` figures come before them."""
-    sheet, language = lesson.sheet, lesson.language
+    sheet = lesson.sheet
     if not sheet.forces:
         return
-    statement = Paragraph(once(scale_statement(sheet, lesson.letters.convention, "force"), language))
-    lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
-    lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters))
+    statement = Paragraph(once(scale_statement(sheet, lesson.letters.convention, "force"), lesson.language))
+    lead: tuple[Heading | Paragraph, ...] = (Heading(lesson.said("forces")), statement)
+    lever = lever_figure(lesson.page("lever"))
     for turn, (stage, load, steps) in enumerate(force_stages_of(lesson)):
-        title = said(stage.title.key, language, **stage.title.gaps)
+        title = lesson.said(stage.title.key, **stage.title.gaps)
         if load:
             both = zip(title, load, strict=True)
             title = tuple((each, name + "  (" + text + ")") for (each, name), (_, text) in both)
@@ -571,40 +562,38 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
         lead = ()
         if stage.figure == "lever" and lever is not None:
             count += 1
-            yield Picture(pictures.bare_picture(lever), numbered(count, said("lever", language)))
+            yield Picture(pictures.bare_picture(lever), numbered(count, lesson.said("lever")))
             lever = None
 
 
 def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> Iterator[Picture]:
     """The equation of a group over its rows, and the group cut free beside its polygon."""
-    group, language = stage.group, lesson.language
+    group = stage.group
     if not group.links:
         return
-    width = paper_of(lesson.sheet.scene).body.width
-    page = FigurePage(lesson.sheet, "forces", language, lesson.letters, width)
+    page = lesson.page("forces", lesson.paper.body.width)
     equation = group_equation(page, group)
     if equation is not None:
         yield Picture(equation, joined=True)
     drawn = group_picture(page, stage, tag)
     caption = group.told("figure of forces")
-    yield Picture(drawn, numbered(count, in_each(language, lambda each: rich_text(caption, each))))
+    yield Picture(drawn, numbered(count, in_each(lesson.language, lambda each: rich_text(caption, each))))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:
     """Remarks on the construction, results, and whether the readings of the table agree."""
-    language = lesson.language
     if lesson.sheet.notes:
-        yield Heading(said("remarks", language), 3)
+        yield Heading(lesson.said("remarks"), 3)
     for note in lesson.sheet.notes:
         yield Paragraph(lesson.sentence(note))
     rows = [row for row in lesson.results if row.ok is not None]
     wrong = [row for row in rows if row.ok is False]
     agree = Phrase(about("all agree", rows), readings=len(rows))
     verdict = lesson.sentence(Phrase("not all agree", wrong=len(wrong), readings=len(rows)) if wrong else agree)
-    how = sentences(*(said(key, language) for key in ("check words", "sense words")))
+    how = sentences(*(lesson.said(key) for key in ("check words", "sense words")))
     yield Together((
-        Heading(said("results", language)),
-        Paragraph(once(drivers(lesson.sheet, lesson.letters), language)),
+        Heading(lesson.said("results")),
+        Paragraph(once(drivers(lesson.sheet, lesson.letters), lesson.language)),
         results_table(lesson, "quantity", "on paper", "measured", "exact", "unit", "sense"),
         Paragraph(verdict),
         Paragraph(how, small=True),
@@ -615,9 +604,9 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
     """The subject of a stage: the position, an equation and its kind, a velocity plan, or the other asked vectors."""
     equation = stage.equation
     if stage.diagram == "mechanism":
-        return said("the position", lesson.language)
+        return lesson.said("the position")
     if equation is None:
-        return said(PLAN_WORDS[stage.diagram] if stage.of_plans else "further vectors", lesson.language)
+        return lesson.said(PLAN_WORDS[stage.diagram] if stage.of_plans else "further vectors")
     numbered_one = Phrase("equation numbered", number=equation.number)
     return in_each(
         lesson.language,
@@ -641,11 +630,10 @@ def _leads_on(stage: Stage, after: Stage | None) -> bool:
 
 
 def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragraph | Picture]:
-    """The head of an equation's steps: the equation over its rows, and its reasons; ``count`` is the number of their
-    figure."""
+    """The head of an equation's steps: the equation over its rows, its reasons; ``count`` numbers their figure."""
     equation = stage.equation
     assert equation is not None
-    where = dict(said("see figure", lesson.language, figure=count))
+    where = dict(lesson.said("see figure", figure=count))
     yield Heading(tuple((each, title + where[each]) for each, title in stage_title(lesson, stage)))
     yield Picture(pictures.equation_picture(lesson, equation), joined=True)
     reasons = in_each(lesson.language, lambda each: why(lesson.account, equation, each))
@@ -664,9 +652,9 @@ def _stage(
     if start != begun != stage.last:
         key = "figure so far"
     named = Phrase(FIGURE_WORDS[stage.diagram])
-    caption = said(key, lesson.language, figure=named, step=stage.last, first=begun)
+    caption = lesson.said(key, figure=named, step=stage.last, first=begun)
     figure = Picture(drawn, numbered(count, caption), floats=True)
-    narrow = drawn.width <= paper_of(sheet.scene).narrow
+    narrow = drawn.width <= lesson.paper.narrow
     steps = step_items(lesson, stage, parted=not narrow and len(stage.steps) >= MANY)
     beside: tuple[Heading | Paragraph | StepItem, ...] = steps
     if stage.equation is not None:

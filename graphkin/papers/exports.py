@@ -28,7 +28,7 @@ from graphkin.papers.lesson import Lesson
 from graphkin.papers.pictures import mechanism_picture
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.words import languages, say, word
+from graphkin.words import say, word
 
 PLATFORMS = ("moodle", "gift", "prairielearn")
 BANKED = ("moodle.xml", "questions.gift")
@@ -41,8 +41,7 @@ _NOTHING = re.compile(r"[^A-Za-z0-9]+")
 
 @dataclass(frozen=True)
 class AskedNumber:
-    """An asked number: its symbol, its letters (HTML and plain), unit, right value, tolerance; and known wrong values,
-    each with its slip in words."""
+    """An asked number: symbol, letters (HTML, plain), unit, value, tolerance; wrong values, each with its slip."""
 
     symbol: str
     html: str
@@ -81,7 +80,7 @@ class Question:
 def question_of(lesson: Lesson, planned: Plan, motion: Motion, name: str) -> Question:
     """The question of a lesson, drawn by a plan; quantities without a bound of the drawing's error are left out."""
     evidence = Evidence.of(planned, motion, lesson.tolerance)
-    first = languages(lesson.language)[0]
+    first = lesson.first
     scene = lesson.sheet.scene
     built = in_each(
         lesson.language, lambda each: word("between sentences", each).join(structure_words(scene.whole, each))
@@ -180,8 +179,7 @@ def _body(
     asked: Sequence[AskedNumber],
     field: Callable[[AskedNumber], str] | None = None,
 ) -> str:
-    """The HTML of a question: structure, data, the figure, the rule of signs, and the asked quantities, with the field
-    of the answer or else with the unit."""
+    """The HTML of a question: structure, data, figure, rule of signs, asked quantities with their fields or units."""
     return rendered("question.html", question=question, source=source, asked=asked, field=field)
 
 

@@ -23,10 +23,12 @@ from graphkin.construction.board.sheet import Equation, Sheet
 from graphkin.construction.board.steps import DiagramName, Step
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import INSIDE, FigurePage
 from graphkin.drawing.parts.polygon import extent
 from graphkin.errors import Unsolvable
 from graphkin.jobs import Progress
-from graphkin.papers.blocks import Said, in_each
+from graphkin.papers.blocks import Said, in_each, said
+from graphkin.papers.paper import Paper, paper_of
 from graphkin.scene.asked import known_symbol
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
@@ -34,7 +36,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.algebra.pose import Array
 from graphkin.structure import Structure
-from graphkin.words import Phrase
+from graphkin.words import Phrase, languages
 
 POSITIONS = 12
 MANY_LINKS = 10
@@ -65,8 +67,7 @@ class Stage:
 
 
 def stages(sheet: Sheet) -> tuple[Stage, ...]:
-    """The steps of a sheet in groups: one for the position, one for each equation with what is measured after it, one
-    for velocity plans between two equations."""
+    """The steps in groups: of the position, of each equation with its measurements, of velocity plans between."""
     equations = {e.number: e for e in sheet.equations}
     parts: list[Stage] = []
     for step in sheet.steps:
@@ -116,10 +117,28 @@ class Lesson:
         return self.report.sheet
 
     @property
+    def first(self) -> str:
+        """The first language of the handout."""
+        return languages(self.language)[0]
+
+    @property
+    def paper(self) -> Paper:
+        """The paper that the scene asks for."""
+        return paper_of(self.sheet.scene)
+
+    def page(self, name: str, width: float = INSIDE) -> FigurePage:
+        """The page of a figure by its name (mm wide)."""
+        return FigurePage(self.sheet, name, self.language, self.letters, width)
+
+    @property
     def level(self) -> str:
         """The level of the problem by the scene's ``[vary]``: "easy", "usual" or "hard"."""
         vary = self.sheet.scene.question.vary
         return vary.level if vary is not None else "usual"
+
+    def said(self, key: str, /, **gaps: object) -> Said:
+        """Words from the table of terms, in the languages of the handout."""
+        return said(key, self.language, **gaps)
 
     def sentence(self, phrase: Phrase) -> Said:
         """A phrase as a sentence in the languages of the handout."""
@@ -299,8 +318,7 @@ def _coarser(scale: float, factor: float) -> float:
 
 
 def rows_in_order(ok: Array) -> list[int]:
-    """The solved rows of a motion, beginning after the gap if there is one, so that neighbours in the list are
-    neighbours in the motion."""
+    """The solved rows of a motion, from any gap on, so that neighbours in the list are neighbours in the motion."""
     good = [bool(stands) for stands in ok]
     cut = next((i for i in range(len(good)) if good[i] and not good[i - 1]), 0)
     return [i for i in (*range(cut, len(good)), *range(cut)) if good[i]]

@@ -25,9 +25,7 @@ from graphkin.drawing.stepwise import so_far, stepped
 from graphkin.drawing.text import rich, runs_width
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.lesson import Lesson
-from graphkin.papers.paper import paper_of
 from graphkin.plane import added_up
-from graphkin.words import languages
 
 ROOM = 11.0  # mm around a figure, for names
 AROUND = 14.0  # mm around a polygon that is still to be drawn
@@ -42,7 +40,7 @@ Layers = tuple[Group, ...]
 def parts(lesson: Lesson, diagram: DiagramName) -> Layers:
     """A figure by layers, every part with the class of its step."""
     sheet, letters = lesson.sheet, lesson.letters
-    body = paper_of(sheet.scene).body
+    body = lesson.paper.body
     if diagram == "mechanism":
         piece, content = mechanism_piece(sheet, letters, (body.width, body.height - 20.0))
         panel = Box(0.0, 0.0, content.width + 2 * ROOM, content.height + 2 * ROOM)
@@ -60,9 +58,8 @@ def parts(lesson: Lesson, diagram: DiagramName) -> Layers:
 def _cropped(
     lesson: Lesson, children: Iterable[Primitive], title: str, desc: str, diagram: DiagramName | None = None
 ) -> Drawing:
-    """Primitives as a drawing of their own size; below those of a diagram the scale, and its check bar beside or under
-    it."""
-    first = languages(lesson.language)[0]
+    """Primitives as a drawing of their own size; below a diagram its scale, and the check bar beside or under it."""
+    first = lesson.first
     children = tuple(children)
     box = (ink_box(children) or Box(0.0, 0.0, 10.0, 10.0)).grown(1.2)
     if diagram is None:
@@ -132,11 +129,10 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
 
 
 def equation_picture(lesson: Lesson, equation: Equation) -> Drawing:
-    """A vector equation over its rows of sizes and directions; on one line, ``v_B3 = v_B2 + v_B3B2``, for readers who
-    do not see it."""
+    """A vector equation over its rows of sizes and directions; as ``v_B3 = v_B2 + v_B3B2`` for who does not see it."""
     sheet, letters = lesson.sheet, lesson.letters
     sides = (" + ".join(str(letters.vector(t.symbol)) for t in side) for side in equation.sides)
-    width = paper_of(sheet.scene).body.width - 4.0
+    width = lesson.paper.body.width - 4.0
     written = line_to_set(equation, sheet, letters, lesson.language)(width, 3.8)
     return _cropped(lesson, written.piece.drawn, " = ".join(sides), "")
 
@@ -171,16 +167,15 @@ def workspace(lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], pa
         children += moved(frame.children, place)
         place += along * (GAP + (size.real if along.real else size.imag))
     title = frame.title if count == 1 else ", ".join(term(FIGURE_WORDS[d], lesson.language) for d in diagrams)
-    first = languages(lesson.language)[0]
+    first = lesson.first
     return Drawing(page.width, page.height + 0.2, tuple(children), title, bare.desc, first)
 
 
 def draw_frame(
     lesson: Lesson, diagram: DiagramName, height: float | None = None, width: float | None = None
 ) -> Drawing:
-    """A frame for drawing a polygon, with the pole where the polygon will have room, and its scale; an empty frame for
-    forces, which have no pole."""
-    page, language = paper_of(lesson.sheet.scene).body, lesson.language
+    """A frame for drawing a polygon, its pole where it will have room, and its scale; for forces without a pole."""
+    page, language = lesson.paper.body, lesson.language
     title, wide, marks = term(FIGURE_WORDS[diagram], language), width or page.width, list[Primitive]()
     tall = height or page.height - 40.0
     if diagram != "force":
@@ -199,7 +194,7 @@ def draw_frame(
         *moved((words,), complex(3.0, tall - 3.0)),
         *moved(bar, complex(wide - 3.0 - BAR, tall - (3.0 if wide > 2 * BAR else 10.0))),
     )
-    return Drawing(wide, tall + 0.2, children, title, "", languages(language)[0])
+    return Drawing(wide, tall + 0.2, children, title, "", lesson.first)
 
 
 def force_space(lesson: Lesson, bare: Drawing, page: Box) -> Drawing:
@@ -247,4 +242,4 @@ def blanks(lesson: Lesson, rows: Iterable[tuple[int, Sequence[str], str]], width
         for row, head in enumerate(heads):
             children.append(Text(complex(0.0, y + 13.6 + 6.5 * row), rich(head, 2.8)))
         y += 13.0 + 6.5 * len(heads)
-    return Drawing(width, y - 2.0, tuple(children), term("your equations", language), "", languages(language)[0])
+    return Drawing(width, y - 2.0, tuple(children), term("your equations", language), "", lesson.first)

@@ -26,7 +26,6 @@ from graphkin.checking.report import COVERAGE
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import DiagramName, RateStep, Step
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.centres import background, centre_marks, near_box
 from graphkin.drawing.figures.constructions import cam_pictures, scaled_cam
 from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
@@ -42,7 +41,7 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.files import Json
 from graphkin.jobs import Progress
-from graphkin.papers.blocks import Block, Heading, Said, StepItem, said, sentences
+from graphkin.papers.blocks import Block, Heading, Said, StepItem, sentences
 from graphkin.papers.documents import (
     force_stages_of,
     results_blocks,
@@ -61,8 +60,8 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.quantities import pole
-from graphkin.words import bodies_named, gaps_of, languages, word
-from graphkin.words.symbols import RichText, sign
+from graphkin.words import bodies_named, gaps_of, word
+from graphkin.words.symbols import sign
 
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
 LISTED = ("figures", "steps")
@@ -95,8 +94,7 @@ def handout_page(
     worked : the stages of the solution (`solution_blocks`)
     """
     stages = tuple(worked)
-    whole = solution(lesson, stages)
-    first = languages(lesson.language)[0]
+    whole, first = solution(lesson, stages), lesson.first
     paper = lesson.sheet.scene.question.sheet.paper
     data = {
         **positions_data(views, progress),
@@ -104,21 +102,21 @@ def handout_page(
         "moving": moving,
         "room": _tolerances(lesson),
         "words": {  # sentences whose gaps the page fills by their names
-            name: _side_by_side(said(key, lesson.language, **{gap: f"{{{gap}}}" for gap in gaps_of(key)}))
+            name: _side_by_side(lesson.said(key, **{gap: f"{{{gap}}}" for gap in gaps_of(key)}))
             for name, key in SPOKEN.items()
         },
     }
-    shown = said("positions words" if len(views) > 1 else "position words", lesson.language, count=len(views))
+    shown = lesson.said("positions words" if len(views) > 1 else "position words", count=len(views))
     body = rendered(
         "handout.html",
         title=scene_title(lesson),
         given=Markup(blocks_html(task_with_source(lesson), first)),
         paper=Markup(blocks_html((Heading(scene_title(lesson), 2), *stages), first)),
         results=Markup(blocks_html(results_blocks(lesson), first)),
-        hint=sentences(said("keys", lesson.language), shown, said("print hint", lesson.language, paper=paper)),
+        hint=sentences(lesson.said("keys"), shown, lesson.said("print hint", paper=paper)),
         buttons=BUTTONS,
-        say=lambda key: Markup(said_html(said(key, lesson.language))),
-        plain=lambda key: _side_by_side(said(key, lesson.language)),
+        say=lambda key: Markup(said_html(lesson.said(key))),
+        plain=lambda key: _side_by_side(lesson.said(key)),
     )
     return whole_page(whole, body, "viewer.js", data)
 
@@ -197,7 +195,7 @@ def _position(
     lesson: Lesson, piece: Piece, frames: Frames, cams: Sequence[Figure]
 ) -> tuple[dict[str, object], list[dict[str, str]]]:
     """A position for the page, and its stages."""
-    first = languages(lesson.language)[0]
+    first = lesson.first
     name = drivers(lesson.sheet, lesson.letters)
     figures = [*_figures(lesson, piece, frames), *_plans(lesson)]
     plans = {figure["name"].removeprefix("plan-") for figure in figures if figure["name"].startswith("plan-")}
@@ -247,7 +245,7 @@ def _figure(name: str, drawing: Drawing, caption: str, scale: str = "", named: b
 
 def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
     """Mechanism, polygons and centres, with their description: each vector with its size and direction."""
-    first, letters = languages(lesson.language)[0], lesson.letters
+    first, letters = lesson.first, lesson.letters
     at = drivers(lesson.sheet, letters)
     for name, drawn, panel in _drawings(lesson, piece, frames):
         is_stepped = name != "centres"
@@ -287,11 +285,10 @@ def _drawings(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[tuple[Fi
 
 def _plans(lesson: Lesson) -> Iterator[Figure]:
     """The velocity plans of rolling links, step by step."""
-    sheet, language = lesson.sheet, lesson.language
-    for plan, page in train_pages(FigurePage(sheet, "plan", language, lesson.letters)).items():
-        bare, order = bare_picture(page), sheet.trains[plan - 1].order
+    for plan, page in train_pages(lesson.page("plan")).items():
+        bare, order = bare_picture(page), lesson.sheet.trains[plan - 1].order
         drawn = replace(bare, children=stepped(bare.children))
-        yield _figure(f"plan-{order}", drawn, _caption(said(PLAN_WORDS[order], language)))
+        yield _figure(f"plan-{order}", drawn, _caption(lesson.said(PLAN_WORDS[order])))
 
 
 def _cams(lesson: Lesson) -> Iterator[Figure]:
@@ -301,7 +298,7 @@ def _cams(lesson: Lesson) -> Iterator[Figure]:
         pictures = cam_pictures(scene, cam, scaled_cam(scene, cam), language)
         for key, picture in zip(("cam diagram", "cam figure"), pictures, strict=True):
             drawn = replace(picture, children=unstepped(picture.children))
-            yield _figure(f"{key.replace(' ', '-')}-{i}", drawn, _caption(said(key, language)))
+            yield _figure(f"{key.replace(' ', '-')}-{i}", drawn, _caption(lesson.said(key)))
 
 
 def _caption(words: Said) -> str:
@@ -310,38 +307,37 @@ def _caption(words: Said) -> str:
 
 def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
     """The stages of the forces, after those of the motion; their figures are added to the others."""
-    sheet, language = lesson.sheet, lesson.language
+    sheet = lesson.sheet
     if not sheet.forces:
         return
-    first = languages(language)[0]
-    scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
+    scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), lesson.first)
     for turn, (stage, load, items) in enumerate(force_stages_of(lesson)):
         name, svg, group = str(stage.figure), "", stage.group
-        title = said_html(said(stage.title.key, language, **stage.title.gaps))
+        title = said_html(lesson.said(stage.title.key, **stage.title.gaps))
         if group.links:
-            name, page = f"force-{turn}", FigurePage(sheet, "forces", language, lesson.letters, WIDE)
+            name, page = f"force-{turn}", lesson.page("forces", WIDE)
             drawn = group_picture(page, stage, f"-{turn}")
-            whose = said("force on links", language, links=bodies_named(group.links))
+            whose = lesson.said("force on links", links=bodies_named(group.links))
             figures.append(_figure(name, drawn, said_html(whose), scale, named=True))
             equation = group_equation(page, group)
             svg = "" if equation is None else svg_element(equation)
         title += f" <small>{said_html(load)}</small>" if load else ""
         found = (_force_found(lesson, stage, told) for told in stage.steps)
         yield {"title": title, "svg": svg}, name, [*zip(items, found, strict=True)]
-    lever = lever_figure(FigurePage(sheet, "lever", language, lesson.letters))
+    lever = lever_figure(lesson.page("lever"))
     if lever is not None:
-        figures.append(_figure("lever", lever, said_html(said("lever", language))))
+        figures.append(_figure("lever", lever, said_html(lesson.said("lever"))))
 
 
 # what a step finds, to be tried first
 
 
-def _find(lesson: Lesson, symbol: Symbol, name: RichText, value: complex | float) -> dict[str, Json]:
+def _find(lesson: Lesson, symbol: Symbol, value: complex | float) -> dict[str, Json]:
     """A quantity to find: symbol, name, size in its unit, and direction (degrees) or sense; none for a zero."""
     if not value:
         return {}
     size = float(f"{lesson.in_unit(symbol, abs(value)):.5g}")
-    named = words_html(name, languages(lesson.language)[0])
+    named = words_html(lesson.letters.vector(symbol), lesson.first)
     find: dict[str, Json] = {"symbol": str(symbol), "name": named, "size": size, "unit": lesson.unit(symbol)}
     if isinstance(value, complex):
         return {"find": find | {"angle": round(math.degrees(cmath.phase(value)), 1)}}
@@ -353,13 +349,11 @@ def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
     sheet = lesson.sheet
     if isinstance(step, RateStep) and step.finds_rate:
         rate, symbol = sheet.rates[step.kind].get(step.link), Symbol(step.kind, link=step.link)
-        return {} if rate is None else _find(lesson, symbol, lesson.letters.vector(symbol), rate.value)
+        return {} if rate is None else _find(lesson, symbol, rate.value)
     vectors = [vector for vector in step.vectors if vector.span]
     if not vectors:
         return {}
-    last = vectors[-1]
-    value = last.span * sheet.scales.of(step.diagram)
-    return _find(lesson, last.symbol, lesson.letters.vector(last.symbol), value)
+    return _find(lesson, vectors[-1].symbol, vectors[-1].span * sheet.scales.of(step.diagram))
 
 
 def _force_found(lesson: Lesson, stage: ForceStage, told: InForces) -> dict[str, Json]:
@@ -371,7 +365,7 @@ def _force_found(lesson: Lesson, stage: ForceStage, told: InForces) -> dict[str,
     for side, sense in ((symbol, 1.0), (back, -1.0)):
         value = stage.state.moments.get(side) or stage.state.vectors.get(side)
         if value:
-            return _find(lesson, symbol, lesson.letters.vector(symbol), sense * value)
+            return _find(lesson, symbol, sense * value)
     return {}
 
 

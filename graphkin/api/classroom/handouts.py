@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, astuple, dataclass, field, fields
 from functools import cached_property, partial
 
 from graphkin import solver
@@ -52,7 +52,7 @@ from graphkin.scene.scene import SceneLike
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import solved_here
 from graphkin.table import Table
-from graphkin.words import Phrase, languages, listed
+from graphkin.words import Phrase, listed
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -97,7 +97,7 @@ class Handout(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """The answer key, in scene units."""
-        return Table.of([f.name for f in fields(KeyRow)], [tuple(asdict(row).values()) for row in self.key])
+        return Table.of([f.name for f in fields(KeyRow)], map(astuple, self.key))
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
@@ -110,7 +110,7 @@ class Handout(OfScene, Result):
         """Content of each file: problem.html, handout.html, problem.pdf, solution.pdf, key.html, key.pdf, key.csv,
         answers_template.csv for a class to fill in, and the files for learning platforms."""
         papers = papers_in(self.lesson, self.formats, self._page)
-        blank = answers_template(self.lesson.questions, self.mechanism.units, languages(self.lesson.language)[0])
+        blank = answers_template(self.lesson.questions, self.mechanism.units, self.lesson.first)
         papers["answers_template.csv"] = blank.csv().encode("utf-8-sig")
         for i, made in enumerate(cam_made(self.mechanism)):
             prefix = f"cam-{made.cam.link}-" if i else "cam-"
@@ -136,7 +136,7 @@ class Handout(OfScene, Result):
         return f"<Handout {self.mechanism.name}: {', '.join(self.formats)}>"
 
     def _repr_html_(self) -> str:
-        return blocks_html(answer_key(self.lesson).blocks, languages(self.lesson.language)[0])
+        return blocks_html(answer_key(self.lesson).blocks, self.lesson.first)
 
 
 def handout(
@@ -195,8 +195,7 @@ def papers_of(
     scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None,
     exports: Sequence[str] = (),
 ) -> Callable[[Variant], Mapping[str, bytes]]:
-    """The writer of the papers of each variant of a set: ``problem_set(scene, 30, render=papers_of(scene))``, which can
-    be sent to another process.
+    """The writer of a variant's papers, in any process: ``problem_set(scene, 30, render=papers_of(scene))``.
 
     Raises
     ------
@@ -235,8 +234,7 @@ def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
 def papers_in(
     lesson: Lesson, formats: Sequence[str], page: Callable[[Sequence[Block]], str] | None = None
 ) -> dict[str, bytes]:
-    """The papers of a lesson by name: problem sheet and key in each format, the key as CSV, with "pdf" the worked
-    solution typeset.
+    """The papers of a lesson by name: problem sheet and key in each format, key as CSV, "pdf" the typeset solution.
 
     Parameters
     ----------
