@@ -46,8 +46,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """Sentences; ``small`` for remarks; ``fills`` leaves the rest of the page below them free to write in, and omits
-    them where little of it is left."""
+    """Sentences; ``small`` for remarks; ``fills`` leaves the rest of the page to write in, omitted if it is little."""
 
     words: Said
     small: bool = False
@@ -81,8 +80,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Plate:
-    """A finished page of a figure as an SVG with its letters as paths (mm), at most as wide as the paper allows;
-    ``seen`` describes it in words."""
+    """A page of a figure as an SVG with letters as paths (mm), no wider than the paper; ``seen`` tells it in words."""
 
     svg: str
     width: float
@@ -204,8 +202,7 @@ def numbered(count: int, caption: Said) -> Said:
 
 def sentences(*several: Said) -> Said:
     """Sentences in order, by language."""
-    by_language: dict[str, list[Words]] = {}
-    for one in several:
-        for each, text in one:
-            by_language.setdefault(each, []).append(text)
-    return tuple((each, spaced(word("between sentences", each), parts)) for each, parts in by_language.items())
+    return tuple(
+        (first[0], spaced(word("between sentences", first[0]), (text for _, text in (first, *others))))
+        for first, *others in zip(*several, strict=True)
+    )

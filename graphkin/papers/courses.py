@@ -27,19 +27,18 @@ from graphkin.papers.blocks import (
     Said,
     TableBlock,
     Together,
-    said,
     said_each,
 )
 from graphkin.papers.documents import (
+    document,
     head_of,
-    paper_title,
     results_table,
     scene_title,
     solution_blocks,
     task_with_source,
 )
 from graphkin.papers.lesson import Lesson, positions
-from graphkin.papers.paper import Paper, paper_of, paper_plan
+from graphkin.papers.paper import Paper, paper_plan
 from graphkin.papers.pictures import bare_picture, mechanism_picture
 from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
@@ -47,7 +46,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import solved_here
 from graphkin.solver.path.named_positions import named_positions
 from graphkin.table import Table, table_of
-from graphkin.words import Phrase, languages, word
+from graphkin.words import Phrase, word
 from graphkin.words.symbols import Words, sign
 
 HEADED = 24.0  # mm of a page for the heading above a figure, and its caption
@@ -93,8 +92,7 @@ Placed = tuple[Student, PlaceValues]
 
 @dataclass(frozen=True)
 class Scheme:
-    """A mechanism of a course: the quantities in the tables, its positions (SI values of the first driver) and the
-    readings at each."""
+    """A mechanism of a course: quantities in the tables, positions (SI values of the first driver), their readings."""
 
     name: str
     scene: Mechanism
@@ -158,11 +156,7 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     """
     table = table_of(students)
     heads = [head.strip().lower() for head in table.heads]
-    columns: dict[str, int] = {}
-    for i, head in enumerate(heads):
-        for role, names in HEADS.items():
-            if head in names:
-                columns.setdefault(role, i)
+    columns = {role: min(map(heads.index, {*names} & {*heads})) for role, names in HEADS.items() if {*names} & {*heads}}
     if "name" not in columns and "id" not in columns:
         raise CallError.of(str(students), "no column of names", "write a head name or id",
                            names=some_of(table.heads))
@@ -176,20 +170,17 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     if schemes and "" in course and not may_be_groups:
         raise CallError.of(f"{students}, {head}", "schemes without their data", "give a row for each rows file.csv",
                            schemes=some_of(schemes))
-    listed, problems = list[Student](), list[Problem]()
+    listed, problems = [who for _, who in read], list[Problem]()
     for line, who in read:
         where = Phrase("line of students and line", students=students, line=line)
+        own = [scheme_for(who, course)] if who.scheme or len(course) == 1 else [*course.values()]
+        known = {name: values for scheme in own for name, values in scheme.places.items()}
         if who.scheme and who.scheme not in course and not may_be_groups:
             problems.append(Problem(where, "there is no scheme", did_you_mean(who.scheme, course), scheme=who.scheme))
-            continue
-        known = scheme_for(who, course).places if who.scheme or len(course) == 1 else None
-        all_known = dict.fromkeys(n for scheme in course.values() for n in scheme.places) if known is None else known
-        if who.place and who.place not in all_known:
-            problems.append(Problem(where, "there is no position", did_you_mean(who.place, all_known), at=who.place))
-            continue
-        if who.place and known is not None and not known[who.place].read:
+        elif who.place and who.place not in known:
+            problems.append(Problem(where, "there is no position", did_you_mean(who.place, known), at=who.place))
+        elif who.place and len(own) == 1 and not known[who.place].read:
             problems.append(Problem(where, "position cannot be drawn", "give another one", place=who.place))
-        listed.append(who)
     if problems:
         raise CallError(*problems)
     free = {name: [p for p, v in scheme.places.items() if v.read] for name, scheme in course.items()}
@@ -240,8 +231,7 @@ def class_table(scene: Mechanism, rows: Sequence[Placed], asked: Sequence[Symbol
 
 
 def on_paper(drawing: Drawing, paper: Paper, caption: Said = ()) -> Picture | Plate:
-    """A drawn page within the margins of a paper: without its own margins and titles true to scale if that fits, else
-    reduced, with its check bar."""
+    """A drawn page within a paper's margins: bare and true to scale if that fits, else reduced, with its check bar."""
     narrow = bare_picture(drawing)
     if narrow.width <= paper.body.width and narrow.height <= paper.body.height - HEADED:
         return Picture(narrow, caption)
@@ -268,73 +258,66 @@ def course_report(
     asked : the quantities in the table of all positions
     figures : "structure", "positions", "loops" and "diagrams", if they could be drawn
     """
-    language, driver = lesson.language, scheme.scene.unit_of(scheme.scene.drivers[0])
-    driver_value = said("course place", language, value=driver.said(stands))
-    task = Heading(said("course task", language), 2, fresh=True)
+    driver = scheme.scene.unit_of(scheme.scene.drivers[0])
+    driver_value = lesson.said("course place", value=driver.said(stands))
+    task = Heading(lesson.said("course task"), 2, fresh=True)
     blocks: list[Block] = [*_cover(lesson, student, driver_value), task, *task_with_source(lesson)]
     if data:
-        blocks.append(Together((Heading(said("course data", language)), *_data(data, student, language))))
+        blocks.append(Together((Heading(lesson.said("course data")), *_data(lesson, data, student))))
     for name in ("structure", "positions"):
-        blocks += _headed(f"course {name}", figures[name], language)
-    place = said("course position", language, position=student.place) if student.place else driver_value
-    heads = zip(said("course drawn", language), place, strict=True)
+        blocks += _headed(lesson, f"course {name}", figures[name])
+    place = lesson.said("course position", position=student.place) if student.place else driver_value
+    heads = zip(lesson.said("course drawn"), place, strict=True)
     blocks.append(Heading(tuple((each, text + word("colon", each) + more) for (each, text), (_, more) in heads)))
     blocks += [_lower(block) for block in solution_blocks(lesson)]
     blocks.append(
         Together((
-            Heading(said("course comparison", language)),
+            Heading(lesson.said("course comparison")),
             results_table(lesson, "quantity", "on paper", "measured", "exact", "course difference", "unit", "sense",
                           "tolerance"),
-            Paragraph(said("course comparison words", language), small=True),
+            Paragraph(lesson.said("course comparison words"), small=True),
         ))
     )
-    blocks += _headed("course loops", figures["loops"], language)
+    blocks += _headed(lesson, "course loops", figures["loops"])
     places = tuple(scheme.places.values())
     bold = frozenset(i for i, place in enumerate(places) if place.name == student.place)
-    first, *others = _value_tables(lesson, (said("course place head", language),), [(p.name,) for p in places],
+    first, *others = _value_tables(lesson, (lesson.said("course place head"),), [(p.name,) for p in places],
                                    places, asked, driver.written, bold)
-    blocks.append(Together((Heading(said("course all positions", language)), first)))
-    blocks += [*others, Paragraph(said("course all words", language), small=True)]
-    blocks += _headed("course diagrams", figures["diagrams"], language)
-    title = paper_title(lesson, "course design")
-    return Document(title, languages(language), tuple(blocks), paper_of(lesson.sheet.scene))
+    blocks.append(Together((Heading(lesson.said("course all positions")), first)))
+    blocks += [*others, Paragraph(lesson.said("course all words"), small=True)]
+    blocks += _headed(lesson, "course diagrams", figures["diagrams"])
+    return document(lesson, "course design", blocks)
 
 
 def class_document(lesson: Lesson, rows: Sequence[Placed], asked: Sequence[Symbol], unit: str) -> Document:
     """The values of a whole class in one table; letters, units and paper are the lesson's."""
-    language = lesson.language
     heads = {"name": "name of student", "id": "course id head", "scheme": "course scheme head",
              "place": "course place head"}
     shown = [name for name in heads if name == "name" or any(getattr(student, name) for student, _ in rows)]
     cells = [tuple(getattr(student, name) or "–" for name in shown) for student, _ in rows]
-    keys = said_each(language, [heads[name] for name in shown])
+    keys = said_each(lesson.language, [heads[name] for name in shown])
     tables = _value_tables(lesson, keys, cells, [values for _, values in rows], asked, unit)
-    blocks: tuple[Block, ...] = (
+    return document(lesson, "course class", (
         Heading(scene_title(lesson), 1),
-        Heading(said("course class", language)),
+        Heading(lesson.said("course class")),
         *tables,
-        Paragraph(said("sign of answers", language), small=True),
-    )
-    return Document(paper_title(lesson, "course class"), languages(language), blocks, paper_of(lesson.sheet.scene))
+        Paragraph(lesson.said("sign of answers"), small=True),
+    ))
 
 
 def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
     """Title, the student and their data, and the mechanism."""
-    language = lesson.language
-    yield Heading(said("course design", language), 1)
+    yield Heading(lesson.said("course design"), 1)
     yield Heading(scene_title(lesson), 2)
     known = (("student", "name", student.name), ("id", "id", student.id), ("scheme", "scheme", student.scheme),
              ("position", "position", student.place))
     for key, gap, value in known:
         if value:
-            yield Paragraph(said(f"course {key}", language, **{gap: value}))
+            yield Paragraph(lesson.said(f"course {key}", **{gap: value}))
     yield Paragraph(place)
-    blanks = []
-    if not student.name:
-        blanks.append("name of student")
-    if not student.id:
-        blanks.append("class of student")
-    yield Fields(said_each(language, (*blanks, "course teacher", "date")))
+    asked = ("name of student", student.name), ("class of student", student.id)
+    blanks = [key for key, value in asked if not value]
+    yield Fields(said_each(lesson.language, (*blanks, "course teacher", "date")))
     yield Picture(mechanism_picture(lesson))
 
 
@@ -350,21 +333,21 @@ def _letters(head: str) -> Words:
     return sign(parted[1], parted[2] or parted[3]) + head[parted.end() :]
 
 
-def _data(data: tuple[tuple[str, ...], ...], student: Student, language: str) -> Iterable[TableBlock]:
+def _data(lesson: Lesson, data: tuple[tuple[str, ...], ...], student: Student) -> Iterable[TableBlock]:
     """The data of the schemes, split into tables if they are many, the student's own row in bold."""
     heads, *rows = data
     bold = frozenset(i for i, row in enumerate(rows) if row[0] == student.scheme)
     for k in range(1, len(heads), MOST_VALUES):
         part = slice(k, k + MOST_VALUES)
-        names = (said("course scheme head", language), *((("en", _letters(head)),) for head in heads[part]))
+        names = (lesson.said("course scheme head"), *((("en", _letters(head)),) for head in heads[part]))
         lines = tuple((row[0], *row[part]) for row in rows)
         yield TableBlock(names, lines, "l" + "r" * len(heads[part]), bold)
 
 
-def _headed(key: str, pictures: Sequence[Picture | Plate], language: str) -> Iterable[Block]:
+def _headed(lesson: Lesson, key: str, pictures: Sequence[Picture | Plate]) -> Iterable[Block]:
     """Figures under one heading, the first of them on its page."""
     if pictures:
-        yield Together((Heading(said(key, language)), pictures[0]))
+        yield Together((Heading(lesson.said(key)), pictures[0]))
         yield from pictures[1:]
 
 
@@ -382,8 +365,7 @@ def _value_tables(
     asked: Sequence[Symbol], unit: str, bold: frozenset[int] = frozenset(),
 ) -> list[TableBlock]:
     """A row for each position after its names; columns without room in a table are in a further one."""
-    language = lesson.language
-    driver = said("course driver head", language, unit=unit)
+    driver = lesson.said("course driver head", unit=unit)
     tables = []
     for k in range(0, len(asked), MOST_VALUES):
         part = asked[k : k + MOST_VALUES]

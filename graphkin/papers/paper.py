@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
@@ -77,9 +77,9 @@ def paper_of(scene: Mechanism) -> Paper:
 NAMES = ("length", "velocity", "acceleration")
 
 
-def _scales(choice: Callable[[str], float]) -> Scales:
-    """The scale of each figure."""
-    return Scales(*map(choice, NAMES))
+def _mixed(first: Scales, kept: Mapping[str, object], second: Scales) -> Scales:
+    """The scales of kept figures from the first, the others from the second."""
+    return Scales(*(getattr(first if kept[name] else second, name) for name in NAMES))
 
 
 def paper_plan(
@@ -103,16 +103,16 @@ def paper_plan(
     paper = paper_of(scene)
     wished = {name: getattr(scene.question.sheet, f"{name}_scale") for name in NAMES}
     if paper != A4:
-        scales, filled = fitted.scales, fitted.exact.scales_for(paper.room(FILLED))
-        fitted = replace(fitted, scales=_scales(lambda name: getattr(scales if wished[name] else filled, name)))
+        filled = fitted.exact.scales_for(paper.room(FILLED))
+        fitted = replace(fitted, scales=_mixed(fitted.scales, wished, filled))
     fits = _fits(fitted, paper)
     if not all(fits.values()):
         larger = _larger(fitted, paper, wished)
         if larger is not None:
             whole = of if isinstance(of, Mechanism) else of.scene
             return paper_plan(whole.asking(sheet=replace(whole.question.sheet, paper=larger)), values, asked, share)
-        scales, roomed = fitted.scales, fitted.exact.scales_for(paper.room(MOST))
-        fitted = replace(fitted, scales=_scales(lambda name: getattr(scales if fits[name] else roomed, name)))
+        roomed = fitted.exact.scales_for(paper.room(MOST))
+        fitted = replace(fitted, scales=_mixed(fitted.scales, fits, roomed))
     return _sharing(fitted, paper, wished) if share else fitted
 
 

@@ -139,8 +139,7 @@ def _led(scene: Mechanism) -> Iterator[Symbol]:
 
 
 def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Symbol]:
-    """Further questions on a mechanism's larger groups: the motion of the points that they find, the rates of their
-    links."""
+    """Further questions on larger groups: the motion of the points that they find, the rates of their links."""
     known = set(scene.frame.points)
     for group in analyse(scene).elements:
         links = [scene.by_name[name] for name in group.members if name in scene.by_name]
@@ -458,13 +457,12 @@ def make(
     drawn = (asdict(job) if job.spread is None or job.number == 1 else (job.name, job.number) for job in jobs)
     whole = ATTEMPTS, papers, given, *drawn
     points = Checkpoints.of(folder, "set", key_of(*whole)) if folder is not None and jobs else None
-    done = _finished(points)
+    done = {} if points is None else _finished(points)
     if points is not None:
         points.open(variants=len(jobs))
-    refused_some = False
+    refused: list[Job] = []  # by who makes or keeps the papers
 
     def settle(job: Job, variant: Variant, papers: Papers | None) -> None:
-        nonlocal refused_some
         files: tuple[str, ...] = ()
         if papers is not None:
             variant, rendered = papers()
@@ -472,8 +470,9 @@ def make(
                 files = tuple(keep(variant, rendered)) if keep is not None and not variant.why else ()
             except Exception as error:
                 variant = variant.failed(error)
-            refused_some = refused_some or bool(variant.why)
-        if points is not None and job.number not in done and not (papers is not None and variant.why):
+        if papers is not None and variant.why:
+            refused.append(job)
+        elif points is not None and job.number not in done:
             words = {"remarks": [*map(as_data, variant.remarks)], "why": as_data(variant.why)}
             points.save(job.number, {**asdict(variant), **words, "files": files})
         made.append(variant)
@@ -490,7 +489,7 @@ def make(
         settle(*one)
     if finish is not None:
         finish(made)
-    if points is not None and not refused_some:
+    if points is not None and not refused:
         points.close()
     return tuple(made)
 
@@ -522,12 +521,12 @@ def accepted(jobs: Iterable[Job], done: Mapping[int, Variant], workers: Workers)
         yield job, variant
 
 
-def _finished(points: Checkpoints | None) -> dict[int, Variant]:
+def _finished(points: Checkpoints) -> dict[int, Variant]:
     """Finished jobs by number, if their files are complete."""
     variants: dict[int, Variant] = {}
-    for number, piece in points.done()[0].items() if points is not None else ():
+    for number, piece in points.done()[0].items():
         facts = dict(piece.facts)
-        if points is not None and all((points.place.parent / name).is_file() for name in facts.pop("files")):
+        if all((points.place.parent / name).is_file() for name in facts.pop("files")):
             answers, remarks = (Answer(**known) for known in facts["answers"]), map(from_data, facts["remarks"])
             read = {"answers": tuple(answers), "remarks": tuple(remarks), "why": from_data(facts["why"])}
             variants[number] = Variant(**{**facts, **read})

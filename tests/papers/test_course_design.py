@@ -91,6 +91,13 @@ def test_of_several_columns_with_a_head_of_names_the_first_is_read(tmp_path):
     assert [("ann", "7"), ("bob", "")] == [(who.name, who.id) for who in dealt]
 
 
+def test_a_student_whose_position_cannot_be_drawn_is_told_with_the_line(tmp_path):
+    places = {"1": PlaceValues("1", 1.0, {Symbol.parse("v_C"): 1.0}), "2": PlaceValues("2", 2.0)}
+    course = {"": Scheme("", mechanism_of(SCENE), (), {}, places)}
+    with pytest.raises(CallError, match=r"line 3.*position 2 cannot be drawn"):
+        list(dealt_out(_file(tmp_path, "name,position\nann,1\nbob,2\n"), course))
+
+
 def test_schemes_without_their_data_are_refused_and_groups_are_not(tmp_path):
     wished = {"find": ["v_C"], "positions": 2, "formats": ("html",)}
     with pytest.raises(CallError, match=r"方案: schemes without their data: I, II; .*--rows"):

@@ -183,21 +183,21 @@ def _sentences(of: Designed | CamMade, language: str) -> list[Said]:
 def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str = "cam-") -> Mapping[str, bytes]:
     """Problem sheet, worked solution and key of a cam drawn by inversion, as files."""
     scene, sheet, cam = made.mechanism, made.sheet, made.cam
-    swings, drawn_at = cam.turns, divisions(sheet)
-    results = []
+    swings, results = cam.turns, []
     spread = predict_cam(cam, sheet, "pencil", scene.question.sheet.tools)
-    for k, (d, tolerance) in enumerate(zip(drawn_at, spread, strict=True)) if not cam.flat else ():
+    read = [*enumerate(zip(divisions(sheet), spread, strict=True))]
+    for k, (d, tolerance) in read if not cam.flat else ():
         angle = math.degrees(d.pressure)
         deviation = math.degrees(tolerance["pressure"])
         results.append(_result(sign("α", str(k)), "°", f"{angle:.1f}", f"{angle:.3f}", angle, deviation))
     metres = scene.units.metres
-    for k, (d, tolerance) in enumerate(zip(drawn_at, spread, strict=True)):
+    for k, (d, tolerance) in read:
         lift = cam.law.at(d.degree).lift
         drawn, value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, lift, tolerance["lift"]))
         letter, unit = ("ψ", "°") if swings else ("s", scene.units.length)
         per = 1.0 if swings else sheet.scales.length / metres
-        read = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
-        results.append(_result(sign(letter, str(k)), unit, read, number(value, 5), value, deviation, -math.inf))
+        measured = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
+        results.append(_result(sign(letter, str(k)), unit, measured, number(value, 5), value, deviation, -math.inf))
     captions = said("cam diagram", language), said("cam figure", language)
     return _papers(
         title=in_each(language, lambda each: scene.question.title_in(each) or scene.name),
