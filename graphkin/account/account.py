@@ -1,5 +1,4 @@
-"""The account of a construction: the sentence, the sums and the lines of each step, and the reason of each equation, in
-a school of notation and any language.
+"""The account of a construction, in any school and language: each step's sentence, sums, lines, each equation's reason.
 
 A step is told by its reason, in the tables of `InMechanism` and `InPolygon`.
 """
@@ -104,8 +103,7 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichT
 
 
 def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[RichText]:
-    """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum, whose line tells
-    it."""
+    """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum, told in a line."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
     rates = sheet.rates[kind]
     told = {step.link for step in sheet.steps if isinstance(step, RateStep) and step.reason == "sum of rates"}

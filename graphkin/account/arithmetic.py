@@ -68,8 +68,7 @@ def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int) -> str
 
 
 def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
-    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper, and of an exact drawing in brackets its
-    value beyond the hundredth of a millimetre."""
+    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper; of an exact drawing its finer value."""
     unit, per = unit_of(sheet, diagram).written, scale_of(sheet, diagram)
     length = on_paper(mm)
     value, finer = product(length, amount(per, 12)), amount(mm * per, MOST)
@@ -224,8 +223,7 @@ def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int, most: 
 
 
 def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, ...]:
-    """The numbers whose product is a size, written to ``most`` figures, measured ones as they are on the sheet; none
-    without such a rule."""
+    """The numbers whose product is a size, to ``most`` figures, measured ones as on the sheet; none without a rule."""
     if rule is None:
         return ()
     if rule.rule == "rolling curves":

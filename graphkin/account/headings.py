@@ -26,8 +26,7 @@ FIGURE_WORDS: Mapping[DiagramName, str] = {
 
 
 def term(key: str, language: str, otherwise: str | None = None, **values: str) -> str:
-    """A word in a language; for "both" in both, with the values in its gaps once.  ``otherwise`` for a word that no
-    table has.
+    """A word in a language; for "both" in both, its values once.  ``otherwise`` for a word that no table has.
 
     >>> term("detail", "both", scale="5"), term("forces", "both"), term("law 345", "both")
     ('Detail 局部放大图 5 : 1', 'Forces 力分析', '3-4-5 多项式')
@@ -53,8 +52,7 @@ _OWN_POSITION = re.compile(
 
 
 def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
-    """The titles of the scene, one for each language in which it has one; at another position without the words that
-    name its own."""
+    """The titles of the scene, one for each language that has one; at another position without words for its own."""
     scene = sheet.scene
     own = all(
         d.distance is not None or math.isclose(sheet.drivers[d.key], d.values[0], rel_tol=1e-9, abs_tol=1e-12)

@@ -87,8 +87,7 @@ def unknown_words(where: str, words: Iterable[object], known: Iterable[str]) -> 
 
 
 def known_workers(executor: object, workers: int | None) -> int | None:
-    """The number of processes, if it is given.  Raises CallError for a number outside 1 to 1024, and for an executor
-    that takes no work."""
+    """The number of processes, if given.  Raises CallError outside 1 to 1024, and for an executor without submit."""
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if executor is not None and not hasattr(executor, "submit"):
         raise CallError.of("executor", "found value", "give one that has submit as those of", value=f"{executor!r:.60}")
@@ -246,8 +245,7 @@ def in_convention(scene: Mechanism, convention: str | None) -> Mechanism:
 
 
 def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase]:
-    """The sentences on change points on the path: the branch that was kept, the reason, and how to ask for the
-    other."""
+    """The sentences on change points on the path: the branch kept, the reason, and how to ask for the other."""
     said = []
     for links in dict.fromkeys(point.links for point in passed):
         at = [zip(scene.drivers, point.values, strict=True) for point in passed if point.links == links]
@@ -313,8 +311,7 @@ def hand_of(wishes: SheetWishes, name: str, seed: int) -> Instrument:
 def columns_shown(
     scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None
 ) -> tuple[Symbol, ...]:
-    """The quantities of names in a table over the driver's range.  Raises CallError for a quantity of one position
-    too."""
+    """The quantities of names, as columns over the driver's range.  Raises CallError for one of one position too."""
     shown = asked_symbols(scene, find, drawn=False)
     if elsewhere := [quantity for quantity in shown if quantity.at]:
         raise CallError(*(Problem(f"find {symbol}", Phrase("is of one position no column", position=symbol.at),
@@ -323,6 +320,5 @@ def columns_shown(
 
 
 def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:
-    """The given folder, or else a folder here with the name of the scene.  Raises CallError for a value that is no
-    path."""
+    """The given folder, else one here with the name of the scene.  Raises CallError for a value that is no path."""
     return path_of(folder) if folder is not None else Path(safe_name(name))

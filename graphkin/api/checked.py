@@ -265,8 +265,7 @@ def checked(planned: Plan, motion: Motion, hand: Instrument, at_contacts: bool =
 
 
 def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Checked:
-    """A check with the quantities asked of other positions ("v_C at 10"), each drawn by the same hands at the same
-    scales.
+    """A check with the quantities asked of other positions ("v_C at 10"), drawn by the same hands at the same scales.
 
     Raises
     ------

@@ -89,8 +89,7 @@ class Drawn(OfScene, Result):
 
     @property
     def with_forces(self) -> Checked | None:
-        """The check of all values, forces included; None for a scene without masses and loads, and where forces are not
-        asked for and cannot be found."""
+        """The check with forces; None without masses and loads, and where they are not asked for nor to be found."""
         made = self._all_checked
         if isinstance(made, Unsolvable) and self.by_name:
             raise made
@@ -110,8 +109,7 @@ class Drawn(OfScene, Result):
 
     @property
     def not_drawn(self) -> Mapping[str, Wording]:
-        """The figures asked for by name, or for which the scene has a table, that could not be drawn, with the
-        reason."""
+        """The figures asked for by name, or with a table in the scene, that could not be drawn, with the reason."""
         made = {name.split("-")[0] for name in self.figures}
         missing = [name for name in self.wanted if name not in made]
         if self.by_name:
@@ -209,8 +207,7 @@ def _positions(drawn: Drawn) -> tuple[Any, ...]:
 
 
 def _beside(drawn: Drawn) -> tuple[Any, ...]:
-    """The constructions at several positions: at named ones, at values of the first driver, or else at those that
-    ``[positions]`` shows.
+    """The constructions at several positions: named, values of the first driver, or else those ``[positions]`` shows.
 
     Raises
     ------

@@ -239,8 +239,7 @@ def _along(rate: float, unit: Unit) -> Phrase:
 
 
 def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
-    """The groups in the order of solution, and the assembly of each, if it can be drawn; the points that were sketched
-    for it."""
+    """The groups in the order of solution, with their assembly if it can be drawn; the points sketched for it."""
     assembly: dict[Phrase, Phrase] = {}
     with suppress(GraphkinError):  # the position cannot be had: solve says why
         assembly = dict(execute(plan(structure, None, ()), EXACT).assembly)

@@ -1,6 +1,4 @@
-"""Reports in plain text, for the terminal, the notebook and files: of a drawing with its steps, readings and check, and
-of the study of a turn.
-"""
+"""Reports in plain text, for terminal, notebook and files: of a drawing (steps, readings, check), of a turn's study."""
 
 from __future__ import annotations
 
@@ -148,8 +146,7 @@ def verdict(checked: Checked, language: str) -> str:
 
 
 def contact_lines(checked: Checked, language: str) -> list[str]:
-    """Whether the drawing at the sliding contacts themselves agrees with the drawing of their replacements, and the
-    rates and contacts that it finds."""
+    """Whether the drawing at sliding contacts agrees with that of their replacements; the rates and contacts found."""
     other = checked.at_contacts
     if other is None:
         pins = dict.fromkeys(s.pin for s in checked.mechanism.slides if s.higher)
@@ -291,8 +288,7 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
 
 
 def _between(scene: Mechanism, stretch: Stretch, language: str) -> str:
-    """The values of the driver at both ends of a stretch, dots where the motion does not end; where it ends on neither
-    side, how far it is followed."""
+    """The driver's values at both ends of a stretch, dots where it has none; without ends, how far it is followed."""
     low, high = (scene.place_said(scene.drivers[0], value) for value in (stretch.low, stretch.high))
     if not any(stretch.ends):
         return say(Phrase("followed without an end", low=low, high=high), language)
@@ -365,8 +361,7 @@ def _named(name: str, unit: Unit, language: str) -> str:
 
 
 def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, str, bool | None]]:
-    """Each reading in words: symbol, mm on paper, measured with the figures that the drawing carries, exact, their
-    unit, whether they agree."""
+    """Each reading in words: symbol, mm on paper, measured to the figures drawn, exact, unit, whether they agree."""
     units = checked.mechanism.units
     for row in checked.report.rows:
         said = measured(row.reading, units, row)

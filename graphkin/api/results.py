@@ -44,8 +44,7 @@ class OfScene:
 
 
 class Result(Tabled):
-    """The result of a public function: its ``data`` is the object that the command of the same name prints under
-    ``--json``.
+    """The result of a public function; ``data`` is the object that the command of its name prints under ``--json``.
 
     Two results are equal if they are of one kind with the same ``data`` and the same ``table``.  They can be pickled
     and sent to other processes; figures and tables are made anew there.

@@ -1,5 +1,4 @@
-"""The questions of the page and their answers, message by message: values in, values out, no state between two
-questions.
+"""The questions of the page and their answers, message by message: values in, values out, no state between two.
 
 A message is a mapping with ``do``, one of `QUESTIONS`, and its arguments; the answer is a mapping for JSON.  The text
 of the scene comes with each question, so that nothing is lost when a server ends.
@@ -48,8 +47,7 @@ Answer = dict[str, Json]
 
 
 def answer(shelf: Shelf, message: object) -> Answer:
-    """The answer to a message.  For every message it has ``ok``, or ``problems`` in sentences with the lines of the
-    text concerned.
+    """The answer to a message: with ``ok``, or with ``problems`` in sentences and the lines of the text concerned.
 
     >>> answer(Shelf(), {"do": "opne"})["problems"][0]["text"]
     'question: "opne"; did you mean "open"?'
@@ -211,8 +209,7 @@ def _pull(shelf: Shelf, asked: Message) -> Answer:
 
 
 def _keep(shelf: Shelf, asked: Message) -> Answer:
-    """The position shown, written into the scene as its own: values or moments of its drivers, places of its sketch,
-    starts of rolling."""
+    """The position shown, as the scene's own: values or moments of drivers, places of its sketch, starts of rolling."""
     scene, raw = asked.scene(shelf), parsed(asked.text)
     shown = pictures.shown(scene, asked.at, FigureOptions(("mechanism",)), quick=True)
     at, points = shown["at"], shown["points"]

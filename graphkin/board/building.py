@@ -53,8 +53,7 @@ def built(text: str, step: Step) -> str:
 
 
 def draft(made: Tables) -> OwnTables:
-    """The parts of a mapping that can be shown before it is a mechanism: places of points (scene units), and the points
-    of each link, whatever is still missing."""
+    """What can be shown of a mapping before it is a mechanism: places of points (scene units), points of links."""
     _, fixed = frame_in(made)
     spots = {**table_in(made, "sketch"), **table_in(made, "drawn"), **table_in(made, "seen"), **fixed}
     points = {str(p): list(z) for p, z in spots.items() if _place(z)}
@@ -270,8 +269,7 @@ def trial_driver(made: Tables) -> OwnTables | None:
 
 
 def movable(scene: Mechanism) -> dict[str, str]:
-    """The effect of pulling each point: it moves the "frame", it turns or shifts the "driver", or it changes "lengths";
-    points without an effect are left out."""
+    """The effect of pulling each point that has one: on the "frame", the "driver" (turned or shifted), or "lengths"."""
     kinds = dict.fromkeys(scene.frame.points, "frame")
     for link in scene.links:
         for point in link.points:

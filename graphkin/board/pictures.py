@@ -1,5 +1,4 @@
-"""The page's picture of a scene at one position: figures, readings, steps, places of its points, range of its
-motion."""
+"""The page's picture of a scene at one position: figures, readings, steps, places of points, range of motion."""
 
 from __future__ import annotations
 
@@ -80,8 +79,7 @@ def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
 
 
 def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -> str:
-    """The mobility with its numbers, in the words of all commands; ``drivers`` where the scene's own are only a
-    trial."""
+    """The mobility with its numbers, in the words of all commands; ``drivers`` where the scene's own are a trial."""
     mobility, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
     numbers = {"links": mobility.links, "lower": mobility.lower, "higher": mobility.higher, "mobility": mobility.value}
     key = "page freedom" if not count else "explained count" if mobility.value == count else "explained miscount"
@@ -131,8 +129,7 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: Figu
 def shown(
     scene: Mechanism, at: Mapping[str, float] | None, options: FigureOptions, quick: bool = False
 ) -> dict[str, Json]:
-    """The page's picture of a scene at a position; where the scene does not reach it, at the end of its range with the
-    reason.
+    """The page's picture of a scene at a position, or with the reason at the end of its range where it is not reached.
 
     Parameters
     ----------
@@ -181,8 +178,7 @@ _IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity",
 
 
 def _plan(structure: Structure, values: Mapping[str, float] | None) -> Plan:
-    """The plan of the drawing at values of the drivers, its assembly followed from the last drawing.  Raises Unsolvable
-    for a position that is not reached."""
+    """The plan at values of the drivers, followed from the last drawing.  Raises Unsolvable where it is not reached."""
     by_name, last = structure.scene.question.find, structure.kept.get("last drawing")
     try:
         return plan(structure, values, asked_here(by_name), near=None if last is None else last.exact)

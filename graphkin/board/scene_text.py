@@ -177,8 +177,7 @@ _PLACES: Mapping[str, tuple[str, ...]] = {
 
 
 def line_of(problem: Problem, text: str) -> int:
-    """The line (from 1) of a problem: the line of its key, or of the nearest table that holds it; 0 for a problem of
-    the whole text."""
+    """The line (from 1) of a problem: of its key, or of the nearest table that holds it; 0 for the whole text."""
     where = problem.where
     known = places(text)
     keys = [str(where)]
@@ -205,8 +204,7 @@ def _first(names: object) -> object:
 
 
 def completions(text: str, line: int, column: int) -> list[dict[str, Wording]]:
-    """The words that may stand at a place of the text: keys of the table there, or names of tables, points, links,
-    guides.
+    """The words that may stand at a place of the text: keys of its table, or names of tables, points, links, guides.
 
     Parameters
     ----------

@@ -146,8 +146,7 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
 
 
 def _answered(shelf: Shelf, text: str) -> str:
-    """The answer to the text of a message; a text that is no JSON gets a problem, and an unforeseen error ends neither
-    the page nor the server."""
+    """The answer to the text of a message; what is no JSON gets a problem, no unforeseen error ends page or server."""
     message: object = None
     with suppress(ValueError, RecursionError):
         message = json.loads(text)

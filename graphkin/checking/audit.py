@@ -172,8 +172,7 @@ def _copied(case: Evidence, own: Mapping[Symbol, Value], symbol: Symbol, others:
 def _following(
     case: Evidence, judged: Judged, own: Mapping[Symbol, Value], others: Sequence[Symbol], chance: float
 ) -> Iterator[tuple[Suspect, float]]:
-    """The explanations of a value by earlier wrong values, from which the drawing was continued: from each that moves
-    it by more than drafting errors do."""
+    """The explanations of a value by earlier wrong values, drawn on from: each moves it by more than drafting does."""
     symbol = judged.printed.symbol
     earlier = [s for s in others if case.before(s, symbol)]
 
@@ -206,8 +205,7 @@ def judge_table(
     motion: Motion, rows: Sequence[Row], of_turn: Mapping[Symbol, float], names: Sequence[str],
     case: Callable[[int], Evidence],
 ) -> list[tuple[Judged, ...]]:
-    """Judge a table by its digits; only wrong values are explained, and of a drawn table some positions are drawn to
-    find a pencil's errors.
+    """Judge a table by its digits; wrong values are explained, and some positions are drawn to find a pencil's errors.
 
     Parameters
     ----------

@@ -31,8 +31,7 @@ AGREES = 1e-9
 
 @dataclass(frozen=True)
 class FoundLength:
-    """A measured length (mm on paper, and in the file's unit) beside the exact one; ``tolerance`` is their allowed
-    difference."""
+    """A length measured (mm on paper; file's unit) beside the exact one; ``tolerance`` is their allowed difference."""
 
     symbol: str
     on_paper: float
@@ -81,8 +80,7 @@ def compare_lengths(
 
 @dataclass(frozen=True)
 class CamPoints:
-    """The differences between drawn and computed points of a cam (m), its pressure angles (rad), and its lifts as read
-    (m, of a swinging follower rad)."""
+    """The differences of drawn and computed points of a cam (m), pressure angles (rad), lifts read (m, or rad)."""
 
     pitch: float
     profile: float

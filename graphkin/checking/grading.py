@@ -1,5 +1,4 @@
-"""Points and verdicts: what is told of each judged value, the points of a person by a scheme, and the slips of a class
-in each quantity."""
+"""Points and verdicts: what is told of judged values, a person's points by a scheme, a class's slips by quantity."""
 
 from __future__ import annotations
 

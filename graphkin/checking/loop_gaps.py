@@ -36,8 +36,7 @@ def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Sy
 
 
 def stated_arrows(sheet: Sheet, loop: Loop, stated: Mapping[Symbol, complex | float]) -> tuple[complex, ...]:
-    """The arrows of a loop (m) with the stated angles and travels; none for a loop that is not drawn, or of which no
-    value is stated."""
+    """The arrows of a loop (m) with the stated angles and travels; none if it is not drawn, or no value is stated."""
     axes, travels = places_of_loops(sheet)
     if not all(a.link in axes and (not a.slide or a.slide in travels) for a in loop.arrows):
         return ()

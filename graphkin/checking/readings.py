@@ -33,8 +33,7 @@ Measured = tuple[float | None, float]
 def read_off(
     sheet: Sheet, asked: Sequence[Symbol] = (), instrument: Instrument = EXACT
 ) -> tuple[Reading, ...]:
-    """Measure every drawn vector and rate, and the positions that the drawing was asked for, or only the quantities
-    asked here, with the instrument's accuracy.
+    """Measure what is drawn (vectors, rates, asked positions), or only what is asked here, as the instrument does.
 
     >>> from graphkin.scene import mechanism_of
     >>> from graphkin.construction import draft
@@ -85,8 +84,7 @@ def read_off(
 def report_on(
     sheet: Sheet, motion: Motion, hand: Instrument = EXACT, predicted: Mapping[Symbol, Uncertainty] | None = None
 ) -> Report:
-    """The report of a drawing: its forces drawn and all of it measured by the hand that drew it, beside the motion that
-    is solved at its position.
+    """The report of a drawing: its forces drawn, all measured by the hand that drew it, beside the motion solved there.
 
     Parameters
     ----------

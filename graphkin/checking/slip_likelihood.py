@@ -169,8 +169,7 @@ class Judged:
             yield Suspect(Phrase("slip pen", name=text), self.exact, share, copied=True), weight
 
     def drawn_badly(self, suspects: Suspects) -> Suspect | None:
-        """A slip in a drawing of larger errors: of the slips that are much more probable than chance the clearly
-        likeliest."""
+        """A slip in a drawing of larger errors: of slips much more probable than chance the clearly likeliest."""
         if not self.printed.value or not suspects.all:
             return None
         values = suspects.comparable(self.printed, self.line)
@@ -269,8 +268,7 @@ Kind = tuple[float, int, list[str]]
 def _kinds(
     text: str, places: Sequence[int], digits: NDArray[np.int_], worth: NDArray[np.float64], goal: float, room: float
 ) -> Iterator[Kind]:
-    """Each kind of error: its share, the count of numbers it could come from, and the numbers that differ from the text
-    by about ``goal``.
+    """Each kind of error: its share, the count of its possible numbers, and those about ``goal`` away from the text.
 
     Parameters
     ----------

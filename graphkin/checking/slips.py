@@ -80,8 +80,7 @@ class Evidence:
 
     @classmethod
     def of(cls, planned: Plan, motion: Motion, predicted: Mapping[Symbol, Uncertainty]) -> Evidence:
-        """The evidence at the position of a plan: all of it is drawn, so that slips on the path to the asked quantities
-        and beside it are found."""
+        """The evidence at the position of a plan, all of it drawn: slips are found on the path asked and beside it."""
         whole = plan_with_forces(planned.structure, planned.values, (), ())
         drawn = planned if set(planned.elements) == set(whole.elements) else whole
         here = as_drawn(motion, planned.structure)
@@ -356,8 +355,7 @@ def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
 
 
 def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
-    """A component of an acceleration in place of the whole: a drawn component, or the component about a fixed pivot
-    where the point was found by the image."""
+    """A component of an acceleration in place of the whole: drawn, or about a fixed pivot if an image gave it."""
     if symbol.kind != "a" or symbol.of is None:
         return
     parts = [other for other in case.others if other.of == symbol.of]
@@ -392,8 +390,7 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
 
 
 def _sort(symbol: Symbol) -> str:
-    """The kind of a quantity by a common name; an arm of the lever, which is a velocity on paper, is a kind of its
-    own."""
+    """The kind of a quantity by a common name; an arm of the lever, a velocity on paper, is a kind of its own."""
     return "arm" if symbol.kind == "arm" else symbol.measure.name
 
 

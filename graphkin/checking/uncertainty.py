@@ -114,8 +114,7 @@ def predict(
 
 
 def _drawn_by(planned: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
-    """A plan drawn without errors; and a function for its readings drawn by other hands, its force polygons (if any) at
-    the same scales."""
+    """A plan drawn without errors; a function for its readings by other hands, force polygons at the same scales."""
     stages = Stages(planned, planned.scales, still)
     has_forces = stages.sheet.has_forces
     if has_forces:
@@ -165,8 +164,7 @@ def _bent(
 
 
 def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
-    """The errors of all acts, in deviations, with a sum of squares of 1, that change a reading most: along its
-    principal axis."""
+    """The errors of all acts (in deviations, sum of squares 1) that change a reading most: along its principal axis."""
     parts = np.stack((row.real, row.imag))
     axis = np.linalg.eigh(parts @ parts.T)[1][:, 1]
     errors = axis @ parts

@@ -122,8 +122,7 @@ def print_failed(status: str, problems: Iterable[Problem], answer: Mapping[str, 
 
 
 def finish(given: Given, result: Result, paths: Iterable[Path] = (), files: bool = False) -> None:
-    """Print a result for programs, with ``files`` if it was written, or the paths for people; leave with status 1 where
-    the result is not ok."""
+    """Print a result for programs, with ``files`` if written, or the paths for people; leave with 1 if it is not ok."""
     paths = list(paths)
     if given.json:
         data = result.data

@@ -48,8 +48,7 @@ class TableRow:
 def readings_table(
     sheet: Sheet, rows: Sequence[TableRow], letters: Notation, language: str, area: Box
 ) -> tuple[tuple[Primitive, ...], int]:
-    """Readings in columns that fill an area (mm): symbol, mm on paper, measured, exact, relative difference; and the
-    number of first readings that fit."""
+    """Readings in columns that fill an area (mm): symbol, on paper, measured, exact, difference; how many fit."""
     count, columns, row_height = _grid(len(rows), area, len(languages(language)))
     rows = rows[: max(0, count)]
     width = (area.width - GUTTER * (columns - 1)) / columns
@@ -136,8 +135,7 @@ def given_lines(sheet: Sheet, letters: Notation, language: str, width: float, si
 def given_data(
     sheet: Sheet, letters: Notation, language: str, area: Box, most: float
 ) -> tuple[tuple[Primitive, ...], list[tuple[Run, ...]]]:
-    """The given data as lines of text in an area (mm), as large as they fit, in letters of at most ``most`` mm; and the
-    lines without room."""
+    """The given data as lines in an area (mm), as large as they fit, at most ``most`` mm; the lines without room."""
     for size in (each for each in (2.8, 2.5, 2.2) if each <= most):
         lines = given_lines(sheet, letters, language, area.width, size)
         if len(lines) * 1.55 * size <= area.height:

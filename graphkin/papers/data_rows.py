@@ -116,8 +116,7 @@ def _evaluated(node: ast.expr, known: Mapping[str, float]) -> float:
 
 
 def columns_of(source: Tables, heads: Sequence[str]) -> tuple[dict[int, str], list[int]]:
-    """The columns of a table that are data of the scene, with their short names; and the others, of which the first
-    names the row."""
+    """The columns of a table that are data of the scene, by short names; the others, the first with the row's name."""
     known = _known_names(source)
     shorts = {i: _short(head) for i, head in enumerate(heads)}
     data = {i: short for i, short in shorts.items() if "." in short or _bare(short) in known}

@@ -348,8 +348,7 @@ def _vary(source: Tables) -> Tables:
 
 
 def _path_of_number(source: Tables, key: str) -> KeyPath | None:
-    """The place of a number by its key with dots: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``; None
-    where there is no number."""
+    """The place of a number by its key: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``; None if none."""
     path = path_of_key(source, key)
     value = None if path is None else value_at(source, path)
     return None if isinstance(value, bool) or not isinstance(value, int | float) else path
@@ -383,8 +382,7 @@ def _paths(source: Tables, keys: Iterable[str]) -> list[KeyPath]:
 
 
 def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: Mapping[str, float]) -> None:
-    """Draw the numbers with a range, and compute the tied ones; ``step_of`` gives the steps of angles by the last
-    key."""
+    """Draw the numbers with a range, compute the tied ones; ``step_of`` gives the steps of angles by the last key."""
     table = _vary(source)
     ranges = table.get("ranges", {})
     for path, (low, high) in zip(_paths(source, ranges), ranges.values(), strict=True):

@@ -1,5 +1,4 @@
-"""Documents as typeset PDF, by Typst: pages filled, figures at true scale, page numbers, the same
-bytes every time.
+"""Documents as typeset PDF, by Typst: filled pages, figures at true scale, page numbers, the same bytes every time.
 
 The template is fixed; the document is given to it as data, so that no word of a scene
 is read as a command.  Typst measures each piece of a document once.  Words stay with the block to which they lead; a
@@ -234,8 +233,7 @@ class PageItem:
 
 @dataclass(frozen=True)
 class Row:
-    """A part of a page: a piece, or those of two columns side by side; the gap above them, and the ``height`` of a
-    piece that takes the rest of a page (mm)."""
+    """A part of a page: a piece, or two columns; the gap above, the ``height`` of what takes a page's rest (mm)."""
 
     left: tuple[PageItem, ...]
     right: tuple[PageItem, ...] = ()
@@ -315,8 +313,7 @@ def _in_halves(table: TableBlock, wide: float) -> Question | None:
 
 
 def _filled(pieces: Sequence[PageItem], wide: float, high: float, sizes: Sizes) -> list[Page]:
-    """Pages of some pieces.  Figures beside their words make large pieces: where pages would have much white, some
-    figures go below their words."""
+    """Pages of some pieces.  Where they would have much white, some figures go below their words, not beside them."""
 
     def filled(below: frozenset[int]) -> tuple[list[Page], float, bool]:
         ready = [one for i, piece in enumerate(pieces) for one in _fitted(piece, wide, sizes, i in below)]
@@ -425,8 +422,7 @@ def balanced(heights: Sequence[float]) -> tuple[int, float]:
 
 
 def fill_pages(pieces: Sequence[PageItem], height: float) -> tuple[list[Page], float, bool]:
-    """Pages of a height (mm), each with its pieces from the head on; the cost of their white, and whether any of it is
-    visible."""
+    """Pages of a height (mm), each with its pieces in order; the cost of their white, and whether any is visible."""
 
     @cache
     def onwards(at: int, waiting: int | None) -> tuple[float, tuple[_Begun, ...]]:
@@ -458,8 +454,7 @@ def fill_pages(pieces: Sequence[PageItem], height: float) -> tuple[list[Page], f
 def _begun(
     pieces: Sequence[PageItem], height: float, at: int, waiting: int | None
 ) -> Iterator[tuple[_Begun, int, int | None]]:
-    """Every page that may begin with a piece, after a waiting figure; the piece after the page, and the figure that
-    waits then."""
+    """Every page that may begin with a piece, after a waiting figure; the piece after it, the figure waiting then."""
     empty = _Begun((), 0.0) if waiting is None else _Begun((waiting,), pieces[waiting].height)
     stack: list[tuple[_Begun, int, int | None]] = [(empty, at, None)]
     while stack:

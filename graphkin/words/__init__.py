@@ -331,8 +331,7 @@ def links_named(names: Sequence[object]) -> Phrase:
 
 
 def bodies_named(names: Sequence[str]) -> Phrase:
-    """Links without the blocks that stand for pins in slots; of blocks alone the blocks at their pins; ``B/`` is a
-    pin without them.
+    """Links without the blocks of pins in slots; of blocks alone those at their pins; ``B/`` is a pin without them.
 
     >>> str(bodies_named(["2", "B/2"])), str(bodies_named(["P/1", "P/0"])), str(bodies_named(["B/"]))
     ('link 2', 'the blocks at P', 'the pin at B')

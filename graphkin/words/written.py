@@ -23,8 +23,7 @@ _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 def on_paper(mm: float) -> str:
-    """A length on paper (mm): to 0.01 mm; three figures of a length that only a drawing at its own scale shows; 0 of a
-    length that is rounding alone.
+    """A length on paper (mm): to 0.01 mm; three figures of one that only its own scale shows; 0 of rounding alone.
 
     >>> on_paper(107.5778), on_paper(0.0612), on_paper(1e-15), on_paper(3.21e-7)
     ('107.58', '0.06', '0', '3.21e-7')
@@ -68,8 +67,7 @@ def quotient(over: str, under: str, carried: int) -> str:
 
 
 def to_lay_off(value: float, per: float, mm: float) -> tuple[str, str]:
-    """A value at a scale of ``per`` for one mm, with the figures that make the written quotient true; and its length on
-    paper (mm).
+    """A value at a scale of ``per`` a mm, with figures that make the written quotient true; its length on paper (mm).
 
     >>> to_lay_off(228.0374, 2.5, 91.21496), to_lay_off(9000.0, 100.0, 90.0)
     (('228.037', '91.21'), ('9000', '90.00'))
@@ -101,8 +99,7 @@ def increased(value: str, more: str) -> str:
 
 
 def increase(value: float, more: float) -> str:
-    """The sum of two computed numbers, in figures: the sum of the terms as they are written, and in brackets the true
-    sum where it differs.
+    """The sum of two computed numbers as they are written, and in brackets the true sum where it differs.
 
     >>> increase(-0.0416166, 0.0832332), increase(2.0, -3.0)
     ('−0.041617 + 0.083233 = 0.041616 (0.041617)', '2 − 3 = −1')
@@ -125,8 +122,7 @@ def amount(value: float, carried: int = 6) -> str:
 
 
 def as_given(value: float, carried: int = MOST + 1) -> str:
-    """A number of the problem with all its figures; a distance given by the places of two points, to ``carried``
-    figures.
+    """A number of the problem with all its figures; the distance of two given points to ``carried`` figures.
 
     >>> as_given(113.442), as_given(1234.5678), as_given(50**0.5)
     ('113.442', '1234.5678', '7.07107')

@@ -126,8 +126,7 @@ class Audited(OfScene, Result):
         return rows
 
     def __getitem__(self, name: str) -> tuple[JudgedValue, ...]:
-        """The judged values of a symbol, one for each person who gave it, in the file's units.  Raises CallError for a
-        symbol that nobody gave."""
+        """The judged values of a symbol, one a person, in the file's units.  Raises CallError if nobody gave it."""
         judged = [j for _, own in self.people for j in own]
         symbol = named({str(j.printed.symbol): j.printed.symbol for j in judged}, name, Phrase("no value of this name"))
         values = (j for j in judged if j.printed.symbol == symbol)
@@ -314,8 +313,7 @@ def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhe
 def judged_table(
     scene: Mechanism, table: Sequence[Answers], at: At, case: Callable[[float | str | None], Evidence]
 ) -> list[tuple[Judged, ...]]:
-    """Rows of a table: all positions solved at once, judged by their digits.  Raises Unsolvable for a position that is
-    not reached."""
+    """Rows of a table, all solved at once and judged by their digits.  Raises Unsolvable for a position not reached."""
     turning = {p.symbol for who in table for p in who.values if p.symbol.scope in ("turn", "cycle")}
     values = exact_values(solved_here(scene, None), turning)
     reach, driver = driver_range(structure_of(scene)), scene.drivers[0]

@@ -56,8 +56,7 @@ MOST_OF_A_TURN = 355.0  # degrees: a driver that goes farther is free to stand a
 
 @dataclass(frozen=True, repr=False, eq=False)
 class ProblemSet(OfScene, Result):
-    """A set of problems: the result of each variant, the table of all answers, its remarks in a language, and the
-    written files."""
+    """A set of problems: its variants, the table of all answers, its remarks in a language, and the written files."""
 
     mechanism: Mechanism
     variants: tuple[Variant, ...]
@@ -260,8 +259,7 @@ def _reach(scene: Mechanism) -> tuple[float, float] | None:
 
 
 def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, dict[int, str], list[int]]:
-    """A table of data, its columns with data and the others, as `columns_of`.  Raises CallError where none is a datum
-    of the scene."""
+    """A table of data, its data columns and the others (`columns_of`).  Raises CallError if none is a datum."""
     table = with_points(table_of(rows))
     data, others = columns_of(source, table.heads)
     if not data:
@@ -299,8 +297,7 @@ def schemes_of(
 def drawn_schemes(
     scene: SceneLike, variants: int, seed: int = 0, find: Iterable[str | Symbol] | None = None
 ) -> tuple[dict[str, Mechanism], tuple[tuple[str, ...], ...]]:
-    """Mechanisms with other numbers, drawn as those of a problem set, by their names, and the table of the varied data,
-    the names first.
+    """Mechanisms with other numbers, drawn as for a problem set, by name, and the table of their data, the names first.
 
     Raises
     ------
