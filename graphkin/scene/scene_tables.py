@@ -41,7 +41,7 @@ Tool = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=0, le=10)]
 NotNegative = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=0, le=LARGEST)]
 Share = Annotated[float, Rule(strict=True, ge=0, le=1)]
 Least = Annotated[Number, Rule(ge=0, le=90)]
-Part = Annotated[Number, Rule(gt=0, le=0.5)]
+Part = Annotated[Magnitude, Rule(le=0.5)]
 Count = Annotated[int, Rule(strict=True, ge=1, le=720)]
 Asked = Annotated[int, Rule(strict=True, ge=1, le=100)]
 Text = Annotated[str, Rule(strict=True, max_length=LONGEST_TEXT)]
@@ -518,7 +518,7 @@ class SheetWishes(FileTable):
     velocity_scale: Magnitude | None = None
     acceleration_scale: Magnitude | None = None
     force_scale: Magnitude | None = None
-    loops: bool = False
+    loops: Switch = False
     convention: Convention = "chinese"
     language: Language = "en"
     tools: Tools = key(name="instrument", default=Tools())
@@ -536,7 +536,7 @@ class Vary(FileTable):
     """The rules by which a set of problems is drawn from a scene."""
 
     ranges: dict[str, Range] = field(default_factory=dict)
-    only: bool = False
+    only: Switch = False
     keep: Keys = ()
     ratios: List[Keys] = ()
     find: Symbols = ()

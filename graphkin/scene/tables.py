@@ -657,7 +657,7 @@ def _take_out(raw: OwnTables, path: KeyPath) -> KeyPath:
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _NOUNS = {
     "count": "count", "g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation",
-    "K": "number", "swing": "number", "duration": "time", "within": "number",
+    "K": "number", "swing": "number", "tolerance": "number", "duration": "time", "within": "number",
 }
 """What must be positive, where it is no length."""
 _KINDS = {
@@ -670,6 +670,7 @@ _KINDS = {
     "int_type": "a whole number is wanted",
     "bool_type": "true or false is wanted",
     "list_type": "a list is wanted",
+    "tuple_type": "a list is wanted",
     "dict_type": "a table is wanted",
     "dataclass_type": "a table is wanted",
 }
