@@ -156,6 +156,19 @@ def test_readings_that_begin_in_a_room_left_higher_up_are_continued_in_their_own
     assert ["Readings and check", "Readings and check (continued)"] == [text.string for text in captions]
 
 
+def test_readings_beside_whole_equations_begin_below_them_and_not_to_their_right():
+    boom = {
+        "frame": {"points": {"C": [0, 0], "D": [-350, 120]}},
+        "links": {"1": {"points": ["D", "E"], "length": 900, "at": {"B": [400, -50]}},
+                  "2": {"points": ["B"], "on": "3"}, "3": {"points": ["C"]}},
+        "driver": {"slide": "2", "travel": 330, "velocity": -40, "acceleration": 15},
+    }
+    drawn = draw(boom, figures=("sheet",)).figures["sheet"].children
+    texts = [thing for thing in walk(drawn) if isinstance(thing, Text)]
+    captions = {text.string: text.at for text in texts if text.string.startswith("Readings")}
+    assert captions["Readings and check"].real < captions["Readings and check (continued)"].real
+
+
 @pytest.mark.parametrize(("scene", "how"), IN_ROOMS_LEFT)
 def test_what_goes_on_in_other_rooms_of_a_sheet_stands_on_nothing_else(scene, how):
     texts = [thing for thing in walk(sheets(scene, **how)["sheet"].children) if isinstance(thing, Text)]

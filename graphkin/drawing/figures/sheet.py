@@ -146,8 +146,8 @@ def _writing(
         table, left, under_table = part_in(_readings, all_of(GIVEN[0]), plan.readings)
         rest, pieces = replace(rest, readings=left.readings, begun=True), [data, written, table]
         rooms = [under_data, under_written, under_table]
-        if plan.beside is not None:  # what is written there goes on from the equations
-            rooms.insert(0, plan.beside)
+        if plan.beside is not None:  # the equations go on there; readings begin below equations that are whole
+            rooms.insert(0 if rest.equations else 2, plan.beside)
         more = continued(page, rest, rooms)
         if more is None:
             return pieces, rest
