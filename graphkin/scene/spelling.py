@@ -146,7 +146,9 @@ def _said(key: str, signs: str = "(?!)") -> re.Pattern[str]:
     return re.compile("|".join((*words, signs)), re.IGNORECASE)
 
 
-_UNITS = {unit: _said(f"unit {unit}") for unit in ("mm", "cm", "m", "rad", "deg", "r", "/", "min", "s2", "s", "n", "2")}
+_UNITS = {
+    unit: _said(f"unit {unit}") for unit in ("k", "mm", "cm", "m", "rad", "deg", "r", "/", "min", "s2", "s", "n", "2")
+}
 _LENGTHS = {**LENGTHS, "dm": 0.1, "km": 1e3, "um": 1e-6, "inch": 0.0254, "inches": 0.0254, "\"": 0.0254, "feet": 0.3048}
 _FORCES = {**{force.lower(): newtons for force, newtons in FORCES.items()}, "lb": FORCES["lbf"], "lbs": FORCES["lbf"]}
 _ANGLES = {**dict.fromkeys(("rad", "", "1"), 1.0), **dict.fromkeys(("deg", "°", "degrees"), math.radians(1.0)),
@@ -443,7 +445,7 @@ _NOTHING = _said("nothing", "[-?/—]?|--")
 _DECIMAL = re.compile(r"[+\-]?\d+,\d+(?:[eE][+\-]?\d+)?")
 _THOUSANDS = re.compile(r"[+\-]?\d{1,3}(?:,\d{3})+(?:\.\d+)?")
 _ABOUT, _ASIDE = _said("about", "[≈~≃≅∼]"), _said("beside a value")
-_RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)\s*\}?")
+_RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)(?:\s*\})?")
 # an inch behind a number or a force, which is no "in the sense of"
 _INCHES = re.compile(
     r"(?:(?<=[\d)\]])|(?<=lb)|(?<=lbf))[\s·*⋅-]*in\b\.?"
@@ -463,6 +465,7 @@ _TWO_WAYS = re.compile(
 )
 # no digit that belongs to a unit (s2, s-1, 秒²) is a number
 _BARE_NUMBER = re.compile(rf"(?<![A-Za-z0-9./^])(?<!\d,)(?<![A-Za-z秒]-)(?!(?<=秒)-?2(?![\d.,])){NUMBER}")
+_PAIR = re.compile(r"[(\[<⟨]\s*([+-]?[\d.]+)\s*,\s*([+-]?[\d.]+)\s*[)\]>⟩]")
 _COMPLEX = re.compile(rf"({NUMBER})\s*([+-])\s*({NUMBER})\s*[*·]?\s*[ij]\b")
 
 
@@ -497,7 +500,7 @@ def read_cell(
     plain = _PER_TIME.sub("/", _RAISED.sub(r"\1", _ABOUT.sub(" ", plain_text(text))))
     plain = _INCHES.sub(" inch", _joined(plain, symbol))
     if symbol.is_vector:
-        plain = _COMPLEX.sub(r"\1; \2\3", _UNIT_VECTORS.sub(r"\1; \2\3", plain))
+        plain = _COMPLEX.sub(r"\1; \2\3", _UNIT_VECTORS.sub(r"\1; \2\3", _PAIR.sub(r"\1; \2", plain)))
         plain = _TWO_WAYS.sub(_two_components, plain)
         plain = _LABELLED.sub(r"\1; \3 \2", plain)
     plain = re.sub(r"(?:±|\+/-|\+-).*$", "", plain)

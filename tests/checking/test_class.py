@@ -73,6 +73,7 @@ def test_a_rate_is_read_as_people_write_it(text, value):
         ("483 in -x direction", 0.483, 180), ("483 downward to the right", 0.483, -45),
         ("483，方向角 150°", 0.483, 150),
         ("毫米/秒483", 0.483, None), ("483 mm/s, 1.2 rad", 0.483, 68.75493541569878),
+        ("483 mm·s^{-1} left", 0.483, 180), ("0.483 m s^-1 ←", 0.483, 180),
     ],
 )
 def test_a_vector_is_read_with_its_unit_and_direction(text, value, degrees):
@@ -81,7 +82,16 @@ def test_a_vector_is_read_with_its_unit_and_direction(text, value, degrees):
     assert (pytest.approx(value), way) == (found.value, found.way.angle)
 
 
-@pytest.mark.parametrize("text", ["v_x = -300 mm/s, v_y = 400 mm/s", "-300 î + 400 ĵ", "(-300|400)", "[-300 400]"])
+@pytest.mark.parametrize(("text", "symbol", "value"), [
+    ("22.5 rad/s^2 cw", "alpha_3", -22.5), ("120 牛", "F_1/2", 120), ("0.12 千牛", "F_1/2", 120),
+    ("120 牛·米 顺时针", "M_2", -120), ("120 牛米", "M_2", 120),
+])
+def test_units_are_read_before_a_sense_and_in_chinese(text, symbol, value):
+    assert value == pytest.approx(read_cell(text, Symbol.parse(symbol), Units()).value)
+
+
+@pytest.mark.parametrize("text", ["v_x = -300 mm/s, v_y = 400 mm/s", "-300 î + 400 ĵ", "(-300|400)", "[-300 400]",
+                                  "(-300,400)", "(-300.0,400.0) mm/s", "<-300,400>"])
 def test_two_components_are_read_as_people_write_them(text):
     assert pytest.approx(-0.3 + 0.4j) == read_cell(text, Symbol.parse("v_D"), Units()).value
 
