@@ -30,7 +30,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.errors import CallError, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json, opened, path_of, whole_file, write_files, writing_to
 from graphkin.words import Phrase, from_others, listed
 
@@ -646,7 +646,15 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
         raise CallError.of(shown, "is no table", "save it as csv", error=from_others(error)) from None
     if len(lines) < 2:
         raise CallError.of(shown, "has no rows", "write a line of heads and a line")
-    return Rows(lines[0][1], tuple(lines[1:]), sign)
+    heads = lines[0][1]
+    longer = [  # 150,5 where commas part the cells
+        Problem(Phrase("line of students and line", students=shown, line=line), "has cells the head has",
+                count=len(cells), other=len(heads))
+        for line, cells in lines if any(cells[len(heads) :])
+    ]
+    if longer:
+        raise CallError(*longer[:20])
+    return Rows(heads, tuple(lines[1:]), sign)
 
 
 def with_points(sheet: Rows) -> Rows:

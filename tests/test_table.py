@@ -180,3 +180,9 @@ def test_a_picture_is_no_table_without_rows(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(b"\x89PNG\r\n\x1a\n\x00\xff")
     with pytest.raises(CallError, match=r"a\.csv: is not UTF-8 text; save it as CSV"):
         table_of(tmp_path / "a.csv")
+
+
+def test_a_decimal_comma_among_commas_is_told_and_not_cut_off(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("name,v_C\nLi,150,\nWu,150,5\n")
+    with pytest.raises(CallError, match=r"^[^\n]*a\.csv, line 3: cells found: 3, in the head: 2$"):
+        table_of(tmp_path / "a.csv")
