@@ -169,6 +169,18 @@ def test_the_moment_of_a_driver_on_a_block_is_that_of_the_lever():
     assert row["by_lever"] == pytest.approx(row["measured"], rel=1e-9)
 
 
+def test_where_nothing_moves_that_is_loaded_the_lever_has_no_arms_and_needs_no_moment():
+    yoke = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"x": {"through": [0, -20], "angle": 170}}},
+        "links": {"1": {"points": ["A", "B"], "length": 45}, "2": {"points": ["B"], "on": "3.s"},
+                  "3": {"on": "0.x", "guides": {"s": {"through": [0, 0], "angle": 70}}}},
+        "driver": {"link": "1", "angle": 150, "omega": 8},  # the yoke stands at the end of its stroke
+        "loads": {"P": {"on": "3", "at": [60, 0], "force": 50, "angle": 0}},
+    }
+    (lever,) = with_forces(drawn(yoke)).forces[0].levers
+    assert ([0.0], 0.0) == ([row.moment for row in lever.rows], lever.value)
+
+
 @pytest.mark.parametrize("seed", range(0, SCENES, 3))
 def test_any_link_may_be_balanced_by_a_moment_or_a_force(seed):
     rng = random.Random(seed)

@@ -220,9 +220,12 @@ def _levers(sheet: Sheet, state: ForceState, hand: Instrument) -> Iterator[Lever
         if balance.off != sheet.scene.frame.name:  # between both links that it acts on
             other = _on_lever(images, changed(balance, link=balance.off), hand)
             unknown = replace(unknown, moment=unknown.moment - other.moment)
-        if abs(unknown.moment) <= 1e-12 * max((abs(z) for z in ends.values()), default=0.0):
+        longest = max(map(abs, ends.values()), default=0.0)
+        if abs(unknown.moment) <= 1e-12 * longest:
             continue
-        value = -added_up(row.moment for row in rows) / unknown.moment
+        power = added_up(row.moment for row in rows)
+        rounding = 1e-12 * longest * max((abs(row.acting.force) for row in rows), default=0.0)
+        value = -power / unknown.moment if abs(power) > rounding else 0.0
         steps = (ForceStep("carry over", "lever", "force"), ForceStep("lay off", "on lever", "force"),
                  ForceStep("read", "all moments", "force", symbol=balance.symbol, finds=(balance.symbol,)))
         by_polygons = state.moments.get(balance.symbol) or abs(state.vectors.get(balance.symbol, 0j))
@@ -236,7 +239,8 @@ def _on_lever(images: DrawnPosition, acting: ForceVector, hand: Instrument) -> M
     if acting.symbol.is_vector:
         end = TURN * images.end("velocity", link, acting.at)
         mm = cross(end, unit(acting.force)) if acting.force else 0.0
-        arm = hand.read_signed(mm) * per_mm if abs(mm) > 1e-13 * abs(end) else 0.0
+        longest = max(map(abs, images.sheet.ends["velocity"].values()), default=0.0)
+        arm = hand.read_signed(mm) * per_mm if abs(mm) > 1e-13 * longest else 0.0
         return MomentTerm(changed(acting, at=end * per_mm), arm, abs(acting.force) * arm)
     far = images.image("velocity", link) if link != images.sheet.scene.frame.name else None
     rates = images.sheet.rates["omega"]
