@@ -14,14 +14,11 @@ from graphkin.account.notation import Notation
 from graphkin.account.voice import Account, Telling
 from graphkin.construction.board.sheet import Equation, Sheet
 from graphkin.construction.board.steps import (
-    PlaceStep,
     PointNames,
-    RateStep,
     Reason,
     Step,
     Term,
     Vector,
-    VectorStep,
 )
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
@@ -30,7 +27,7 @@ from graphkin.words.symbols import RichText, rate, spaced
 from graphkin.words.written import pointing
 
 
-def telling(account: Account, step: Step) -> Telling[Step]:
+def telling(account: Account, step: Step) -> Telling:
     """The telling of a step."""
     return InMechanism(account, step) if step.diagram == "mechanism" else InPolygon(account, step)
 
@@ -64,7 +61,7 @@ def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[Writte
             ready = [one for one in lengths if to_come.isdisjoint(one[1])]
             lines += [bound(line) for *_, line in ready]
             lengths = [one for one in lengths if one not in ready]
-        elif isinstance(step, PlaceStep) and step.reason in TAKEN_FROM_THE_MECHANISM:
+        elif step.reason in TAKEN_FROM_THE_MECHANISM:
             to_come.discard(step.point)
         if step.equation is not None and step.equation not in written:
             written.add(step.equation)
@@ -90,7 +87,7 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichT
     once; an equation that is only a rule contains its own."""
     if rule_alone(sheet, equation):
         return []
-    own = [s for s in sheet.steps if s.equation == equation.number and isinstance(s, VectorStep)]
+    own = [s for s in sheet.steps if s.equation == equation.number]
     laid_off = {s.symbol for s in own if s.reason == "before its turn" or (s.verb == "lay off" and s.mm)}
     arithmetic = {
         one.symbol: rule_sum(sheet, one.size, equation.diagram)
@@ -106,7 +103,7 @@ def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[RichText]
     """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum, told in a line."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
     rates = sheet.rates[kind]
-    told = {step.link for step in sheet.steps if isinstance(step, RateStep) and step.reason == "sum of rates"}
+    told = {step.link for step in sheet.steps if step.reason == "sum of rates"}
     for turning in rates.values():
         if turning.vector is None and not turning.same_as and turning.value != 0.0 and turning.link not in told:
             others = alike(rates.values(), turning)

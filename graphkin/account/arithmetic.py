@@ -17,13 +17,8 @@ from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Sheet, either_way
 from graphkin.construction.board.steps import (
     DiagramName,
-    EndStep,
-    RateStep,
-    RateTrial,
     Size,
     Step,
-    Superposed,
-    VectorStep,
 )
 from graphkin.construction.position.links_on_paper import pushed_by_driver
 from graphkin.plane import added_up
@@ -103,15 +98,12 @@ def lengths_measured(
 
 def _bars_of(step: Step, images: bool) -> Iterator[tuple[str, str]]:
     """The bars by whose lengths a step multiplies or divides."""
-    if isinstance(step, RateStep) and step.reason == "rate":
+    if step.reason == "rate":
         yield step.points[0], step.points[1]
-    sizes = [step.size] if isinstance(step, VectorStep) else []
-    if isinstance(step, EndStep):
-        sizes = [term.size for term in step.terms]
-        if images and step.reason == "division" and not step.held:
-            start, end = (ref.point for ref in step.refs)
-            yield from ((start, step.ref.point), (start, end))
-    for size in sizes:
+    if images and step.reason == "division" and not step.held:
+        start, end = (ref.point for ref in step.refs)
+        yield from ((start, step.ref.point), (start, end))
+    for size in (step.size, *(term.size for term in step.by_rates)):
         if size is not None and size.rule == "rate" and not isinstance(size.factor, Symbol):
             yield size.factor
 
@@ -127,7 +119,7 @@ def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
 # rates
 
 
-def rate_sum(sheet: Sheet, step: RateStep, units: bool = True) -> str:
+def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
     """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is no quotient."""
     divided = _divided(sheet, step)
     if divided is None:
@@ -138,7 +130,7 @@ def rate_sum(sheet: Sheet, step: RateStep, units: bool = True) -> str:
     return f"{size}{of} / {arm}{over} = {value} {step.unit}"
 
 
-def _divided(sheet: Sheet, step: RateStep) -> tuple[str, str, str] | None:
+def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
     """The numbers of a measured rate as they are written: size, length and quotient; None without them."""
     diagram = step.diagram
     if step.held:
@@ -163,7 +155,7 @@ def _divided(sheet: Sheet, step: RateStep) -> tuple[str, str, str] | None:
     return size, arm, quotient(size, arm, min(MOST - 1, carried))
 
 
-def plan_sum(step: RateStep) -> str:
+def plan_sum(step: Step) -> str:
     """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate read from the plan of a train."""
     length, scale = on_paper(step.mm), amount(step.per_mm, 12)
     return f"{length} mm × {scale} ({step.unit})/mm = {product(length, scale)} {step.unit}"
@@ -178,21 +170,21 @@ class Division:
     part: str
 
 
-def trials_of(sheet: Sheet, divided: Superposed) -> list[RateTrial]:
+def trials_of(sheet: Sheet, divided: Step) -> list[Step]:
     """The trial polygons whose gaps a step divides."""
-    return [step for step in sheet.before(divided) if isinstance(step, RateTrial)][-len(divided.apart) :]
+    return [step for step in sheet.before(divided) if step.reason == "polygon"][-len(divided.apart) :]
 
 
-def divisions(sheet: Sheet, divided: Superposed) -> list[Division]:
+def divisions(sheet: Sheet, divided: Step) -> list[Division]:
     """The division that gives each rate from its first assumed value and the step to its other trial: by the gaps of
     the two trials for a single assumed rate, else by the parts of the steps that close all gaps."""
     trials = trials_of(sheet, divided)
     found = []
-    for i, (_, rate) in enumerate(divided.found):
-        low = trials[0].assumed[i][1]
-        more = trials[i + 1].assumed[i][1] - low
+    for i, (_, rate) in enumerate(divided.rates):
+        low = trials[0].rates[i][1]
+        more = trials[i + 1].rates[i][1] - low
         start, size = amount(low, MOST), amount(abs(more), MOST)
-        if len(divided.found) == 1:
+        if len(divided.rates) == 1:
             one, two = (on_paper(row[0]) for row in divided.apart)
             over, under = on_paper(abs(divided.apart[0][0])), on_paper(float(difference(one, two)))
             less, most = (printed(mm) for mm in sorted((one.lstrip("-"), two.lstrip("-")), key=float))
@@ -264,7 +256,7 @@ def _rate_read(sheet: Sheet, rule: Size) -> str:
         return ""
     rate = sheet.rates[rule.rate][rule.links[0]]
     link = rate.same_as or rate.link
-    read = (s for s in sheet.steps if isinstance(s, RateStep) and s.reason == "rate" and not s.held)
+    read = (s for s in sheet.steps if s.reason == "rate" and not s.held)
     own = next((step for step in read if (step.kind, step.link) == (rule.rate, link)), None)
     divided = None if own is None or abs(own.value) != abs(rate.value) else _divided(sheet, own)
     return "" if divided is None else divided[2]

@@ -55,9 +55,10 @@ LEVER_ROOM = 134.0, 130.0  # mm, width and height of a lever
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class InForces(Telling[ForceStep]):
+class InForces(Telling):
     """A step of the forces: of loads from outside, of a group, or of a lever."""
 
+    step: ForceStep
     group: ForceGroup = NO_GROUP
     lever: Lever | None = None
 

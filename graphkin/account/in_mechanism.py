@@ -9,17 +9,16 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from graphkin.account.headings import number
-from graphkin.account.voice import KindOfStep, Telling, numbered
+from graphkin.account.voice import Telling, numbered
 from graphkin.construction.board.steps import (
     FINDS_A_POINT,
     Bar,
     CompassArc,
     Mark,
     MeasuredGap,
-    PlaceStep,
     PointNames,
     Reason,
     TrialPositions,
@@ -37,7 +36,7 @@ IN_LINE = 1e-9  # rad, or of a length: so near to an axis or a guide its own poi
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class InMechanism(Telling[KindOfStep]):
+class InMechanism(Telling):
     """A step of the mechanism."""
 
     def at(self, point: str) -> complex | None:
@@ -50,7 +49,7 @@ class InMechanism(Telling[KindOfStep]):
         return self.step.phrase
 
     @property
-    def places(self: InMechanism[PlaceStep]) -> object:
+    def places(self) -> object:
         """Fixed points and guides by their places on paper."""
         found = ((p, self.at(p)) for p in self.step.points)
         told = [Phrase("place of a point", point=_named(p), **_coordinates(z)) for p, z in found if z is not None]
@@ -62,24 +61,24 @@ class InMechanism(Telling[KindOfStep]):
         return listed(told) if told else None
 
     @property
-    def angle(self: InMechanism[PlaceStep]) -> str:
+    def angle(self) -> str:
         """The angle at which a link is drawn (degrees)."""
         return true_minus(f"{math.degrees(self.step.value):.6g}")
 
     @property
-    def base(self: InMechanism[PlaceStep]) -> str | None:
+    def base(self) -> str | None:
         """The link from which that angle is measured; None for the x axis."""
         return self.step.base or None
 
     # the points of a link
 
-    def _link_points(self: InMechanism[PlaceStep]) -> Phrase | None:
+    def _link_points(self) -> Phrase | None:
         """Each new point of a link from its drawn points."""
         step, link = self.step, self.step.link
         own = self.sheet.structure.links[link].points if link in self.sheet.structure.links else {}
         before = [one for one in self.sheet.before(step) if one.diagram == "mechanism"]
         standing = {s.ref.point for one in before for s in one.strokes if isinstance(s, Mark)}
-        crossed = (one for one in before if isinstance(one, PlaceStep) and one.reason in FINDS_A_POINT)
+        crossed = (one for one in before if one.reason in FINDS_A_POINT)
         found = {one.point for one in crossed} - standing  # on no link yet
         known = [p for p in own if p in standing]
         told: list[Phrase] = []
@@ -140,7 +139,7 @@ class InMechanism(Telling[KindOfStep]):
     # points that are found
 
     @property
-    def side(self: InMechanism[PlaceStep]) -> str | None:
+    def side(self) -> str | None:
         """The side of the line between two points of a point found by arcs, or of the crossing of circles for a
         tangent."""
         one, other = map(self.at, self.step.points[:2])
@@ -151,7 +150,7 @@ class InMechanism(Telling[KindOfStep]):
         return "left" if cross(other - one, found[0] - one) > 0 else "right"
 
     @property
-    def crossing(self: InMechanism[PlaceStep]) -> str | None:
+    def crossing(self) -> str | None:
         """The choice between the crossings of an arc with a straight path, as seen on the paper."""
         point, bars = self.step.point, [
             s.b - s.a for one in self.sheet.placing("path") if one.point == self.step.point
@@ -167,7 +166,7 @@ class InMechanism(Telling[KindOfStep]):
         upright = abs(half.imag) > abs(half.real)
         return ("upper" if half.imag > 0 else "lower") if upright else ("right" if half.real > 0 else "left")
 
-    def _special_lines(self: InMechanism[PlaceStep], language: str) -> Iterator[Phrase]:
+    def _special_lines(self, language: str) -> Iterator[Phrase]:
         """The place of the special point."""
         step = self.step
         joints = map(self.account.letters.point, (step.point, *step.points))
@@ -178,9 +177,10 @@ class InMechanism(Telling[KindOfStep]):
 
     # trial positions
 
-    def _positions(self: InMechanism[TrialPositions]) -> Phrase | None:
+    def _positions(self) -> Phrase | None:
         """Trial positions with the measured gaps of each, and the division."""
         table = self.step
+        assert isinstance(table, TrialPositions)
         if not table.trials:
             return None
         moved, missed = self._moved_and_missed(table)
@@ -205,10 +205,11 @@ class InMechanism(Telling[KindOfStep]):
                 told = Phrase("trial division again", told=told, value=listed(rest[-1][0]))
         return Phrase("in turn", first=self.plain, second=told)
 
-    def _positions_lines(self: InMechanism[TrialPositions], language: str) -> Iterator[Phrase]:
+    def _positions_lines(self, language: str) -> Iterator[Phrase]:
         """Trial positions: the moved quantity, the construction of each point, the gap, and the value that closes
         it."""
         trial = self.step
+        assert isinstance(trial, TrialPositions)
         out, moved, rolled = map(listed, (trial.left_out, trial.driven, trial.rolling))
         fitted = Phrase("written trial", left_out=out, moved=moved)
         parts = [Phrase("written trial rolling", moved=moved, contact=rolled) if rolled else fitted]
@@ -238,7 +239,7 @@ class InMechanism(Telling[KindOfStep]):
         paths: dict[str, Words] = {}
         arced: set[str] = set()
         for step in self.sheet.steps[self.step.number :]:
-            if not isinstance(step, PlaceStep):
+            if step.diagram != "mechanism" or step.reason == "positions":
                 return
             guides = [self._guide(pair) for pair in step.pairs]
             match step.reason:
@@ -333,12 +334,12 @@ class InMechanism(Telling[KindOfStep]):
         bar, base = (PointNames(link.bar[:2], bar=True) for link in (other, one))
         return Phrase("trial turn of bars", link=moved.link, bar=bar, base=base, hinge=_named(hinge))
 
-    sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InMechanism[Any]], Phrase | None]]] = {
+    sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InMechanism], Phrase | None]]] = {
         "frame": ("fixed on paper",), "angle": ("lay off angle from link", "lay off angle from x"),
         "points": _link_points, "whole link": _link_points, "arcs": ("place by arcs {side}",),
         "arc on path": ("crossing {crossing}",), "tangent": ("tangent {side}",), "positions": _positions,
     }
-    lines: ClassVar[Mapping[Reason, Callable[[InMechanism[Any], str], Iterable[Phrase]]]] = {
+    lines: ClassVar[Mapping[Reason, Callable[[InMechanism, str], Iterable[Phrase]]]] = {
         "positions": _positions_lines, "special point": _special_lines,
     }
 

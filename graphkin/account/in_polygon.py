@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, get_args
+from typing import ClassVar
 
 from graphkin.account.arithmetic import (
     bound,
@@ -21,23 +21,18 @@ from graphkin.account.arithmetic import (
 )
 from graphkin.account.headings import number, term
 from graphkin.account.notation import unit_of
-from graphkin.account.voice import SAME, KindOfStep, Telling, numbered
+from graphkin.account.voice import SAME, Telling, numbered
 from graphkin.construction.board.sheet import Rate
 from graphkin.construction.board.steps import (
     GIVEN,
+    ROLES,
     Bar,
-    EndStep,
     PointNames,
-    RateStep,
-    RateTrial,
     Ray,
     Reason,
-    Role,
     Size,
-    Superposed,
     Term,
     Vector,
-    VectorStep,
     end_of,
 )
 from graphkin.plane import dot
@@ -49,26 +44,25 @@ from graphkin.words.written import MOST, amount, on_paper, pointing, printed, qu
 SEEN = 0.005  # mm on paper: less than that is not taken off
 ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
 RATIOS = "part", "whole", "ratio", "ratio_a", "ratio_b"
-ROLES: tuple[Role, ...] = get_args(Role)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class InPolygon(Telling[KindOfStep]):
+class InPolygon(Telling):
     """A step of a polygon.  In the gaps of its sentences a, b are the letters of the given end points, c of the found
     one; A, B, C are the points of the link."""
 
-    def gap(self: InPolygon[Any], name: str) -> object:
+    def gap(self, name: str) -> object:
         """The value of a gap by its name; None without a value."""
         if set(name) <= set("abcABC"):
             return self._lettered(name)
         return self._ratios[name] if name in RATIOS else super().gap(name)
 
-    def _lettered(self: InPolygon[EndStep], names: str) -> RichText | None:
+    def _lettered(self, names: str) -> RichText | None:
         """Several points side by side; None where one has no letter."""
         letters = [letter for name in names if (letter := self._letter(name)) is not None]
         return RichText(*letters) if len(letters) == len(names) else None
 
-    def _letter(self: InPolygon[EndStep], name: str) -> RichText | None:
+    def _letter(self, name: str) -> RichText | None:
         refs = self.step.ref if name in "cC" else self.step.refs["abAB".index(name) % 2]
         account = self.account
         return account.end_of(self.step.diagram, refs) if name.islower() else account.letters.point(refs.point)
@@ -147,18 +141,18 @@ class InPolygon(Telling[KindOfStep]):
     # vectors
 
     @property
-    def length(self: InPolygon[VectorStep]) -> str | None:
+    def length(self) -> str | None:
         """The length of its vector (mm); None without a vector."""
         return on_paper(self.step.mm) if self.step.mm and self.places is not None else None
 
     @property
-    def rule(self: InPolygon[VectorStep]) -> Phrase:
+    def rule(self) -> Phrase:
         """A vector with the rule of its size, where that is not just given."""
         key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(self.step.reason, "as vector")
         return Phrase(key, vector=_ruled(self.step.symbol, self.step.size))
 
     @property
-    def way(self: InPolygon[VectorStep]) -> object:
+    def way(self) -> object:
         """Its direction with its sense, unless its name contains it."""
         direction = self.step.direction
         if direction.relation == "towards" or self.places is None:
@@ -187,11 +181,11 @@ class InPolygon(Telling[KindOfStep]):
         """Whether a line goes through the pole, as part of a key."""
         return "pole" if self.places is not None and abs(self.places[0]) < SAME else None
 
-    def _laid_off(self: InPolygon[VectorStep]) -> Phrase | None:
+    def _laid_off(self) -> Phrase | None:
         told, why = self.first("lay off lettered", "lay off from"), self._carried_over()
         return told if why is None else Phrase("in turn", first=told or self.step.phrase, second=why)
 
-    def _carried_over(self: InPolygon[VectorStep]) -> Phrase | None:
+    def _carried_over(self) -> Phrase | None:
         """The source of a vector between points of two links that is carried over from the motion seen from a held
         link; an acceleration with the Coriolis term of the held link's turning."""
         step = self.step
@@ -202,7 +196,7 @@ class InPolygon(Telling[KindOfStep]):
         held = {s.held for s in before if s.reason == "seen from"}
         kind = step.symbol.kind[0]
         gives = (s.symbol for s in reversed(before)
-                 if s.reason in ("vector", "pole to end") or (isinstance(s, EndStep) and s.begins))
+                 if s.reason in ("vector", "pole to end") or s.begins)
         seen = next((
             one for one in gives if one.kind == kind and one.of is not None and one.to is not None
             and one.to.link in held and one.of.point == one.to.point == of.point
@@ -220,7 +214,7 @@ class InPolygon(Telling[KindOfStep]):
         gaps = {"symbol": step.symbol, "vector": told, "rule": rule, "slip": slip, "sense": sense_of(turning)}
         return Phrase("written carried over coriolis", **gaps)
 
-    def _laid_sums(self: InPolygon[VectorStep]) -> Iterable[Words]:
+    def _laid_sums(self) -> Iterable[Words]:
         """The rule of a vector in numbers, and its length on paper."""
         step = self.step
         if step.reason == "before its turn" and (step.size is None or not step.mm):
@@ -233,13 +227,13 @@ class InPolygon(Telling[KindOfStep]):
     # images
 
     @property
-    def on_link(self: InPolygon[EndStep]) -> tuple[complex, complex, complex] | None:
+    def on_link(self) -> tuple[complex, complex, complex] | None:
         """The places on the link of an end point and of the points from which it is found (mm)."""
         a, b, c = (self.sheet.points.get(PointRef(ref.point)) for ref in (*self.step.refs, self.step.ref))
         return None if a is None or b is None or c is None or abs(b - a) < SAME else (a, b, c)
 
     @property
-    def where(self: InPolygon[EndStep]) -> str | None:
+    def where(self) -> str | None:
         """The place of a point on the line of a bar: between its ends or beyond one."""
         if self.on_link is None:
             return None
@@ -250,7 +244,7 @@ class InPolygon(Telling[KindOfStep]):
         return "before" if along < 0.0 else "within" if along <= 1.0 else "beyond"
 
     @property
-    def _ratios(self: InPolygon[EndStep]) -> Mapping[str, str | None]:
+    def _ratios(self) -> Mapping[str, str | None]:
         """A part of a bar, the bar, and their ratio as written; the sides of a triangle at a and b over the side
         between these."""
         if self.on_link is None:
@@ -263,12 +257,12 @@ class InPolygon(Telling[KindOfStep]):
         return dict(zip(RATIOS, found, strict=True))
 
     @property
-    def _one_place(self: InPolygon[EndStep]) -> bool:
+    def _one_place(self) -> bool:
         """Whether the image of a bar is one point, as of a link that does not turn."""
         a, b = (self.sheet.ends[self.step.diagram].get(ref) for ref in self.step.refs)
         return a is not None and b is not None and on_paper(abs(b - a)) == on_paper(0.0)
 
-    def _image(self: InPolygon[EndStep]) -> Phrase | None:
+    def _image(self) -> Phrase | None:
         if self.step.held:
             return None
         if self._one_place:
@@ -277,7 +271,7 @@ class InPolygon(Telling[KindOfStep]):
             return self.first("division lettered {where}", "division {where}")
         return self.first("image with sides", "image lettered")
 
-    def _image_lines(self: InPolygon[EndStep], language: str) -> Iterator[Words | Phrase]:
+    def _image_lines(self, language: str) -> Iterator[Words | Phrase]:
         """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points
         the vector with the similar figure of the link, none for a vector that is not drawn."""
         step, on_line = self.step, self.step.reason == "division"
@@ -297,17 +291,17 @@ class InPolygon(Telling[KindOfStep]):
         else:
             yield bound(self._side_by_side("△", "", "abc") + self._side_by_side(" ∽ △", "", "ABC"))
 
-    def _side_by_side(self: InPolygon[EndStep], between: str, *names: str) -> RichText:
+    def _side_by_side(self, between: str, *names: str) -> RichText:
         """Lettered points or bars with a sign between each two."""
         return spaced(between, (self._lettered(some) or "" for some in names))
 
     @property
-    def parts(self: InPolygon[EndStep]) -> list[tuple[Term, complex]]:
+    def parts(self) -> list[tuple[Term, complex]]:
         """The parts that the rates of a link give, each with its vector (mm)."""
-        return [(part, part.span) for part in self.step.terms if part.span is not None]
+        return [(part, part.span) for part in self.step.by_rates if part.span is not None]
 
     @property
-    def laid(self: InPolygon[EndStep]) -> object:
+    def laid(self) -> object:
         """The path to an end point from another of its link: the parts by the rates, laid off in order."""
         start = end_of(self.step.begins[0]) if self.step.held else Phrase("the point", point=self.gap("a"))
         if not self.step.held and self.gap("a") is None:
@@ -321,7 +315,7 @@ class InPolygon(Telling[KindOfStep]):
             start = Phrase("the end of", vector=part.symbol)
         return joined("in turn", told) if told else None
 
-    def _by_rates_sums(self: InPolygon[EndStep]) -> Iterator[Words]:
+    def _by_rates_sums(self) -> Iterator[Words]:
         """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
         per, unit = scale_of(self.sheet, self.step.diagram), unit_of(self.sheet, self.step.diagram).written
         for said, (_, span) in zip(self._by_rates_lines(""), self.parts, strict=True):
@@ -329,7 +323,7 @@ class InPolygon(Telling[KindOfStep]):
             yield f"÷ {number(per)} ({unit})/mm = {printed(on_paper(abs(span)))} mm,  {pointing(span)}°"
         yield from self.measured()
 
-    def _by_rates_lines(self: InPolygon[EndStep], language: str) -> Iterator[RichText]:
+    def _by_rates_lines(self, language: str) -> Iterator[RichText]:
         """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``."""
         letters = self.account.letters
         for part, _ in self.parts:
@@ -342,17 +336,17 @@ class InPolygon(Telling[KindOfStep]):
     # rates
 
     @property
-    def turning_links(self: InPolygon[RateStep]) -> tuple[str, ...]:
+    def turning_links(self) -> tuple[str, ...]:
         """The links with the same rate, as its indices."""
         step, rates = self.step, self.sheet.rates[self.step.kind]
         return (step.link + step.held,) if step.held else (step.link, *alike(rates.values(), rates[step.link]))
 
-    def _rate_sums(self: InPolygon[RateStep]) -> Iterable[Words]:
+    def _rate_sums(self) -> Iterable[Words]:
         step = self.step
         value = rate_sum(self.sheet, step) or f"{number(abs(step.value), MOST)} {step.unit}"
         return (rate(step.kind, self.turning_links[0]) + f" = {value}",)
 
-    def _rate_lines(self: InPolygon[RateStep], language: str) -> Iterator[RichText]:
+    def _rate_lines(self, language: str) -> Iterator[RichText]:
         """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
         step, rates = self.step, self.sheet.rates[self.step.kind]
         value = step.value if step.held else rates[step.link].value
@@ -361,20 +355,20 @@ class InPolygon(Telling[KindOfStep]):
         names = (rate(step.kind, name) for name in self.turning_links)
         yield spaced(" =\u00a0", (*names, rule, shown)) + _turning(value, language)
 
-    def _held_still_lines(self: InPolygon[RateStep], language: str) -> Iterator[RichText]:
+    def _held_still_lines(self, language: str) -> Iterator[RichText]:
         """``ω_32 = 0.1437 rad/s, clockwise, drawn apart, with one link held still``."""
         step = self.step
         if step.kind in ("omega", "alpha"):
             value = f"{number(abs(step.value), 5)} {step.unit}{_turning(step.value, language)}"
             yield rate(step.kind, step.link + step.held) + f" = {value},  {term('held still', language)}"
 
-    def _plan_lines(self: InPolygon[RateStep], language: str) -> Iterator[RichText]:
+    def _plan_lines(self, language: str) -> Iterator[RichText]:
         """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read from the plan of a train."""
         step = self.step
         value = bound(plan_sum(step)) + _turning(step.value, language) if step.value else "0"
         yield rate(step.kind, step.link) + " = " + value
 
-    def _summed_lines(self: InPolygon[RateStep], language: str) -> Iterator[RichText]:
+    def _summed_lines(self, language: str) -> Iterator[RichText]:
         """``ω_5 = ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: of a link with a known rate relative to a
         link of known rate, and of links that slide on it."""
         others = (rate(self.step.kind, name) for name in self.turning_links[:0:-1])
@@ -382,7 +376,7 @@ class InPolygon(Telling[KindOfStep]):
 
     # trial polygons
 
-    def _trial(self: InPolygon[RateTrial]) -> Phrase:
+    def _trial(self) -> Phrase:
         """A trial polygon: its steps, and in the first one its reason."""
         step = self.step
         # the steps by which it is drawn like the true polygon
@@ -393,7 +387,7 @@ class InPolygon(Telling[KindOfStep]):
         last = max((s.number for s in own), default=first)
         rates = listed([
             Phrase("rate is", symbol=symbol, value=true_minus(number(value, 5)), unit=self._unit(symbol))
-            for symbol, value in step.assumed
+            for symbol, value in step.rates
         ])
         told = Phrase("trial lettered", trial=sign(roman(step.trial)), rates=rates, first=first, last=last)
         if step.trial > 1:
@@ -405,21 +399,21 @@ class InPolygon(Telling[KindOfStep]):
         crossing = {"first": first_link, "second": second_link, "angle": angle, "distance": away}
         return Phrase("superposed since far", reason=told, **crossing)
 
-    def _superposed(self: InPolygon[Superposed]) -> Phrase:
+    def _superposed(self) -> Phrase:
         """The gaps of the trials, measured from letter to letter, and the proportional division in numbers."""
         divided = self.step
         rows = numbered([true_minus(on_paper(mm)) for mm in row] for row in divided.apart)
         quotients = divisions(self.sheet, divided)
         rates = listed([
             Phrase("rate is", symbol=symbol, value=quotient.value, unit=self._unit(symbol))
-            for (symbol, _), quotient in zip(divided.found, quotients, strict=True)
+            for (symbol, _), quotient in zip(divided.rates, quotients, strict=True)
         ])
         if len(quotients) > 1:
             parts = listed([quotient.part for quotient in quotients])
             return Phrase("superposed several", between=self._left_open(), open=rows, parts=parts, rates=rates)
         return Phrase("superposed one", between=self._left_open(), open=rows, sum=quotients[0].terms, rates=rates)
 
-    def _superposed_lines(self: InPolygon[Superposed], language: str) -> Iterator[Phrase]:
+    def _superposed_lines(self, language: str) -> Iterator[Phrase]:
         """The measured gaps, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional
         division.
         """
@@ -432,13 +426,13 @@ class InPolygon(Telling[KindOfStep]):
         ])
         yield Phrase("written trials", trials=listed(numerals), left_out=closing, open=self._left_open())
         for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
-            rates = spaced(", ", (symbol(s) + f" = {number(v, 5)} {self._unit(s)}" for s, v in trial.assumed))
+            rates = spaced(", ", (symbol(s) + f" = {number(v, 5)} {self._unit(s)}" for s, v in trial.rates))
             gaps = listed([printed(on_paper(mm)) for mm in row])
             yield Phrase("written trial polygon", trial=mark, rates=Neutral(rates), open=gaps)
         quotients = divisions(self.sheet, divided)
         said = Neutral(spaced("; ", (
             bound(symbol(s) + f" = {one.terms} = {one.value} {self._unit(s)}")
-            for (s, _), one in zip(divided.found, quotients, strict=True)
+            for (s, _), one in zip(divided.rates, quotients, strict=True)
         )))
         if len(quotients) > 1:
             parts = listed([one.part for one in quotients])
@@ -447,7 +441,7 @@ class InPolygon(Telling[KindOfStep]):
         else:
             yield Phrase("written superposed", rates=said)
 
-    def _left_open(self: InPolygon[Superposed]) -> object:
+    def _left_open(self) -> object:
         """The gaps, by their end points and directions."""
         told, divided = [], self.step
         for way, refs, less in zip(divided.ways, divided.between, divided.less, strict=True):
@@ -472,7 +466,7 @@ class InPolygon(Telling[KindOfStep]):
     def _unit(self, symbol: Symbol) -> str:
         return symbol.unit(self.sheet.scene.units).written
 
-    sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InPolygon[Any]], Phrase | None]]] = {
+    sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InPolygon], Phrase | None]]] = {
         **dict.fromkeys(ROLES, _laid_off), "vector": ("found lettered",),
         "direction": (
             "direction from {pole}", "direction from lettered end", "direction from end", "direction from point"
@@ -483,11 +477,11 @@ class InPolygon(Telling[KindOfStep]):
         "rates": lambda told: told.first("ends seen" if told.step.held else "ends in"),
         "polygon": _trial, "open ends": _superposed,
     }
-    arithmetic: ClassVar[Mapping[Reason, Callable[[InPolygon[Any]], Iterable[Words]]]] = {
+    arithmetic: ClassVar[Mapping[Reason, Callable[[InPolygon], Iterable[Words]]]] = {
         **dict.fromkeys((*ROLES, "before its turn"), _laid_sums), "rates": _by_rates_sums, "rate": _rate_sums,
         "plan": lambda told: [rate(told.step.kind, told.step.link) + f" = {plan_sum(told.step)}"],
     }
-    lines: ClassVar[Mapping[Reason, Callable[[InPolygon[Any], str], Iterable[Words | Phrase]]]] = {
+    lines: ClassVar[Mapping[Reason, Callable[[InPolygon, str], Iterable[Words | Phrase]]]] = {
         **dict.fromkeys(ROLES, lambda told, language: filter(None, [told._carried_over()])),
         "similar": _image_lines, "division": _image_lines,
         "rates": _by_rates_lines, "rate": _rate_lines, "sum of rates": _summed_lines,

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar, Generic, TypeVar
+from typing import Any, ClassVar
 
 from graphkin.account.arithmetic import lengths_measured, times_scale
 from graphkin.account.notation import Notation, notation_of, pole
@@ -254,17 +254,13 @@ def account_of(sheet: Sheet) -> Account:
     return Account(sheet, notation_of(sheet, sheet.scene.question.sheet.convention))
 
 
-KindOfStep = TypeVar("KindOfStep", bound=Step, covariant=True)
-
-
 @dataclass(frozen=True, eq=False, repr=False)
-class Telling(Generic[KindOfStep]):
+class Telling:
     """The telling of a step: by its reason its ``sentences``, keys of the table of words from the fullest to the
-    barest, of which the first with filled gaps is said; its ``sums``, and the ``lines`` to repeat it.  What tells one
-    kind of step alone names it with ``self``."""
+    barest, of which the first with filled gaps is said; its ``sums``, and the ``lines`` to repeat it."""
 
     account: Account
-    step: KindOfStep
+    step: Step
     sentences: ClassVar[Mapping[Reason, Any]] = {}
     arithmetic: ClassVar[Mapping[Reason, Callable[[Any], Iterable[Words]]]] = {}
     lines: ClassVar[Mapping[Reason, Callable[[Any, str], Iterable[Words | Phrase]]]] = {}

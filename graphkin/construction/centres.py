@@ -25,7 +25,6 @@ from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.projective import Line, Place, ProjectiveChart, product, wedge
 from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Superposed
 from graphkin.construction.plan import draft
 from graphkin.construction.touching import Touching
 from graphkin.plane import Pose, dot
@@ -148,8 +147,7 @@ class Centres:
     def kept(self) -> tuple[str, ...]:
         """The constraints that superposed trial motions fulfil, if the motion was found by trial: the bars or sliding
         pairs that the trial polygons leave open."""
-        divided = (step for step in self.sheet.steps if isinstance(step, Superposed))
-        return tuple(dict.fromkeys(name for step in divided for name in step.closing))
+        return tuple(dict.fromkeys(name for step in self.sheet.steps for name in step.closing))
 
     @property
     def mm(self) -> float:

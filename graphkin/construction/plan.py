@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.scales import Room, Scales
 from graphkin.construction.board.sheet import Board, GroupWay, Limits, Sheet, without_residues
-from graphkin.construction.board.steps import ORDERS, Order, RateStep, Step
+from graphkin.construction.board.steps import ORDERS, Order, Step
 from graphkin.construction.polygons.elements import draw_element
 from graphkin.construction.polygons.polygons import AS_DRAWN, RATE, OwnValues, Polygons, draw_asked
 from graphkin.construction.polygons.vector_graph import VectorChain, contacts_of
@@ -591,7 +591,7 @@ class Inversion:
         t = self.triangle
         kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
         for diagram, kind, value in zip(DIAGRAMS, kinds, motion, strict=True):
-            yield RateStep("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
+            yield Step("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
                        kind=kind, value=value)
 
 

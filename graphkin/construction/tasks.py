@@ -8,7 +8,7 @@ from typing import Any
 
 from graphkin.construction.board.scales import Scales
 from graphkin.construction.board.sheet import Board, Sheet
-from graphkin.construction.board.steps import Mark, PlaceStep, Stroke, TaskReason, Verb
+from graphkin.construction.board.steps import Mark, Step, Stroke, TaskReason, Verb
 from graphkin.construction.touching import CamStation
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross_line_arc, unit
@@ -24,7 +24,7 @@ NO_MECHANISM = Mechanism("", PlacedLink("0", {}, (), {}), (), (), ())
 
 
 @dataclass(frozen=True)
-class TaskStep(PlaceStep):
+class TaskStep(Step):
     """A step of a task.
 
     Parameters

@@ -22,7 +22,7 @@ import numpy as np
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.proportional_division import divide
 from graphkin.construction.board.scales import fitting_scale
-from graphkin.construction.board.steps import Bar, Order, RateStep, Step, Superposed
+from graphkin.construction.board.steps import Bar, Order, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import PlacedLink
@@ -202,12 +202,12 @@ class TrainPlan:
     length: float = 1.0
     speed: float = 1.0
     turning: float = 1.0
-    lines: dict[tuple[int, str], RateStep] = field(default_factory=dict)
+    lines: dict[tuple[int, str], Step] = field(default_factory=dict)
     velocities: dict[tuple[int, str], float] = field(default_factory=dict)
-    travels: dict[str, RateStep] = field(default_factory=dict)
+    travels: dict[str, Step] = field(default_factory=dict)
     followed: set[tuple[str, str]] = field(default_factory=set)
     gaps: list[float] = field(default_factory=list)
-    trial: Superposed | None = None
+    trial: Step | None = None
 
     @property
     def pole(self) -> float:
@@ -219,12 +219,12 @@ class TrainPlan:
         """The kind of the rate scale."""
         return "omega" if self.order == "velocity" else "alpha"
 
-    def line(self, link: str) -> RateStep | None:
+    def line(self, link: str) -> Step | None:
         """The line of a link from which its rate is read, else its first."""
         steps = [step for (_, name), step in self.lines.items() if name == link]
         return next((step for step in steps if step.reason == "plan"), steps[0] if steps else None)
 
-    def step(self, wanted: Coordinate) -> RateStep | None:
+    def step(self, wanted: Coordinate) -> Step | None:
         """The step that reads a rate, or the speed of a sliding pair, or lays it off."""
         kind, name = wanted
         return self.line(name) if kind == "angle" else self.travels.get(name)
@@ -293,7 +293,7 @@ class TrainPlan:
             far = max((s.height * mm for s in self.on[i].spots), key=abs)
             reach += [0.0] if reach[0] else [far * min(1.0, 0.25 * HIGH / abs(far))]
         low, high = (complex(x + slope * (h - y), h) for h in (min(reach), max(reach)))
-        self.lines[i, link] = RateStep(
+        self.lines[i, link] = Step(
             "read", "given on plan" if given else "plan", self.order, (Bar(low, high, link),), kind=self.rate,
             link=link, points=by, mm=abs(foot), per_mm=self.turning, value=rate,
         )
@@ -317,8 +317,8 @@ class TrainPlan:
             return False
         run = on - at - lean
         read = hand.read_signed(run)
-        self.travels[mesh.slide] = RateStep("read", "plan travel", self.order, pairs=(mesh.slide,), mm=abs(read),
-                                            per_mm=self.speed, value=mesh.sense * read * self.speed)
+        self.travels[mesh.slide] = Step("read", "plan travel", self.order, pairs=(mesh.slide,), mm=abs(read),
+                                        per_mm=self.speed, value=mesh.sense * read * self.speed)
         return True
 
     def trials(self, names: Sequence[str]) -> list[dict[str, float]]:
@@ -336,7 +336,7 @@ class TrainPlan:
         values = tuple(map(float, divide([[*assumed.values()] for assumed in trials], gaps)))
         gaps_in_rows = tuple(tuple(map(float, row)) for row in gaps)
         rates = tuple((Symbol(self.rate, link=name), rate) for name, rate in zip(names, values, strict=True))
-        trial = Superposed("divide", "plans", self.order, found=rates, apart=gaps_in_rows)
+        trial = Step("divide", "plans", self.order, rates=rates, apart=gaps_in_rows)
         return replace(self.drawn(hand, dict(zip(names, values, strict=True))), trial=trial)
 
     def to_assume(self, wanted: Coordinate) -> list[str] | None:

@@ -12,7 +12,7 @@ from graphkin.account.arithmetic import bound, rule_sum, scale_of
 from graphkin.account.headings import number, term
 from graphkin.account.notation import Notation, rows_of, unit_of
 from graphkin.construction.board.sheet import Equation, Sheet
-from graphkin.construction.board.steps import GIVEN, Term, VectorStep
+from graphkin.construction.board.steps import GIVEN, Term
 from graphkin.drawing.boxes import Block
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
@@ -163,7 +163,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Notation) -> RichText | No
     found = bound(rule_sum(sheet, only.size, equation.diagram))  # the product of what is written
     if not found:
         laid_off = (s.mm for s in sheet.steps
-                    if isinstance(s, VectorStep) and s.verb == "lay off" and s.symbol == only.symbol)
+                    if s.verb == "lay off" and s.symbol == only.symbol)
         # what is given is not what a hand has made of it
         value = next(laid_off, abs(vector.span)) * scale_of(sheet, equation.diagram)
         found = bound(f"{number(value, MOST)} {unit_of(sheet, equation.diagram).written}")

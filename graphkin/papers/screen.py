@@ -24,7 +24,7 @@ from graphkin.account.spoken import spoken_words
 from graphkin.account.voice import capital, whole_sentence
 from graphkin.checking.report import COVERAGE
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import DiagramName, RateStep, Step
+from graphkin.construction.board.steps import DiagramName, Step
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.centres import background, centre_marks, near_box
 from graphkin.drawing.figures.constructions import cam_pictures, scaled_cam
@@ -347,7 +347,7 @@ def _find(lesson: Lesson, symbol: Symbol, value: complex | float) -> dict[str, J
 def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
     """The result of a step of the motion: its measured rate, or its last vector."""
     sheet = lesson.sheet
-    if isinstance(step, RateStep) and step.finds_rate:
+    if step.finds_rate:
         rate, symbol = sheet.rates[step.kind].get(step.link), Symbol(step.kind, link=step.link)
         return {} if rate is None else _find(lesson, symbol, rate.value)
     vectors = [vector for vector in step.vectors if vector.span]

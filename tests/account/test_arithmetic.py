@@ -32,7 +32,7 @@ from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
 from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Board, Equation
-from graphkin.construction.board.steps import Direction, RateTrial, Size, Superposed, VectorStep
+from graphkin.construction.board.steps import Direction, Size, Step
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import library, mechanism_of
@@ -76,10 +76,10 @@ def test_the_sheet_tells_the_rate_in_numbers_once():
 @pytest.mark.parametrize("name", ["contour-four-bars", "double-butterfly"])
 def test_trial_rates_are_divided_as_it_is_written(name):
     sheet, _ = drawn(name)
-    steps = [step for step in sheet.steps if isinstance(step, Superposed)]
+    steps = [step for step in sheet.steps if step.reason == "open ends"]
     assert ["velocity", "acceleration"] == [step.diagram for step in steps]
     for step in steps:
-        for (_, rate), one in zip(step.found, divisions(sheet, step), strict=True):
+        for (_, rate), one in zip(step.rates, divisions(sheet, step), strict=True):
             value = eval(one.terms.replace("×", "*").replace("−", "-"))
             told = one.value.split(" ")[0].replace("−", "-")
             assert value == pytest.approx(float(told), abs=0.5000001 * 10.0 ** -len(told.partition(".")[2]))
@@ -99,7 +99,7 @@ def test_every_sum_is_true_as_it_is_written(name):
     for step in sheet.steps:
         if step.reason == "rate" and not step.held:
             text = rate_sum(sheet, step, units=False)
-        elif isinstance(step, VectorStep) and step.verb == "lay off" and step.mm:
+        elif step.verb == "lay off" and step.mm:
             text = rule_sum(sheet, step.size, step.diagram)
         else:
             continue
@@ -182,7 +182,7 @@ def test_with_a_pencil_given_lengths_stay_given_in_every_sum(name):
     arms = [(step.points, rate_sum(sheet, step, units=False).split(" = ")[0].split(" / ")[-1])
             for step in sheet.steps if step.reason == "rate" and not step.held]
     sizes = [step.size for step in sheet.steps
-             if isinstance(step, VectorStep) and step.size and step.size.rule == "rate"]
+             if step.size and step.size.rule == "rate"]
     arms += [(size.factor, factors_of(sheet, size)[-1]) for size in sizes if not isinstance(size.factor, Symbol)]
     told = [(given[frozenset(bar)], float(arm)) for bar, arm in arms if frozenset(bar) in given]
     assert len(told) >= 5
@@ -215,7 +215,7 @@ def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_ar
         drawn_ = {aid.symbol: aid for aid in step.auxiliary}
         vectors = (aid for t in sheet.steps for aid in t.auxiliary)
         (start,) = (s.tip for s in vectors if s.symbol == step.begins[0])
-        parts = step.terms
+        parts = step.by_rates
         assert drawn_[step.symbol].tip - start == pytest.approx(sum(part.span for part in parts), abs=1e-9)
 
 
@@ -248,7 +248,7 @@ def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(n
     said = {step.link: rate_sum(sheet, step).rsplit(" = ", 1)[-1].split()[0] for step in sheet.steps
             if step.reason == "rate" and step.kind == "omega"}
     sizes = [step.size for step in sheet.steps
-             if isinstance(step, VectorStep) and step.size and step.size.rule == "rate"]
+             if step.size and step.size.rule == "rate"]
     used = [(said[sheet.rates["omega"][size.links[0]].same_as or size.links[0]], factors_of(sheet, size)[size.twice])
             for size in sizes if size.rate == "omega" and sheet.rates["omega"][size.links[0]].vector]
     assert used
@@ -257,7 +257,7 @@ def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(n
 
 def test_with_a_pencil_a_product_carries_the_figures_of_what_was_measured():
     sheet = draft(mechanism_of("whitworth"), instrument=pencil(Tools(), 0), room=sheet_room(mechanism_of("whitworth")))
-    sizes = {str(s.symbol): s.size for s in sheet.steps if isinstance(s, VectorStep) and s.verb == "lay off"}
+    sizes = {str(s.symbol): s.size for s in sheet.steps if s.verb == "lay off"}
     assert "4.543² × 156.4 = 3228 mm/s²" == rule_sum(sheet, sizes["an_A@4/O4"], "acceleration")
 
 
@@ -328,19 +328,19 @@ def superposed_twice():
     apart = tuple(tuple((slopes @ (row - right)).tolist()) for row in tried)
     found = tuple(zip(names, right.tolist(), strict=True))
     way, ref = Direction("along", ("A", "B")), PointRef("A")
-    last = Superposed("divide", "open ends", "velocity", number=9, found=found, closing=("3", "4"), apart=apart,
-                      ways=(way, way), between=((ref, ref),) * 2, less=((), ()))
+    last = Step("divide", "open ends", "velocity", number=9, rates=found, closing=("3", "4"), apart=apart,
+                ways=(way, way), between=((ref, ref),) * 2, less=((), ()))
     # others before them, of the same polygon and of the other
     trials = [(1, tuple((name, 9.0) for name in names))] * 2
     trials += [(i, tuple(zip(names, row, strict=True))) for i, row in enumerate(tried.tolist(), 1)]
-    before = tuple(RateTrial("trial", "polygon", "velocity", number=i, trial=trial, assumed=assumed)
+    before = tuple(Step("trial", "polygon", "velocity", number=i, trial=trial, rates=assumed)
                    for i, (trial, assumed) in enumerate(trials))
     return SimpleNamespace(before=lambda step: before[: step.number], instrument=EXACT.name), last, right, tried
 
 
 def test_several_trial_rates_are_divided_each_by_its_part_of_its_step():
     sheet, step, right, tried = superposed_twice()
-    assert tried.tolist() == [[value for _, value in act.assumed] for act in trials_of(sheet, step)]
+    assert tried.tolist() == [[value for _, value in act.rates] for act in trials_of(sheet, step)]
     for i, one in enumerate(divisions(sheet, step)):
         share = (right[i] - tried[0][i]) / (tried[i + 1][i] - tried[0][i])
         assert share == pytest.approx(float(one.part.replace("−", "-")), abs=0.00005)
@@ -349,7 +349,7 @@ def test_several_trial_rates_are_divided_each_by_its_part_of_its_step():
 
 def test_trials_that_differ_by_less_than_a_ruler_shows_are_divided_by_what_they_do():
     sheet, _ = drawn("contour-four-bars")
-    step = next(step for step in sheet.steps if isinstance(step, Superposed))
+    step = next(step for step in sheet.steps if step.reason == "open ends")
     (one,) = divisions(sheet, replace(step, apart=((10.001,), (10.002,))))
     assert "/ 0.001 ×" in one.terms
 
@@ -360,7 +360,7 @@ def test_a_hand_writes_no_more_than_its_ruler_shows():
     measured = [str(told).split(" = ")[-1] for *_, told in lengths_measured(sheet, notation_of(sheet, "chinese"))]
     assert [] == [told for told in measured if "(" in told]
     sheet = draft(mechanism_of("contour-four-bars"), instrument=hand)
-    steps = [step for step in sheet.steps if isinstance(step, Superposed)]
+    steps = [step for step in sheet.steps if step.reason == "open ends"]
     assert [] == [one for step in steps for one in divisions(sheet, step) if "(" in one.value]
 
 
@@ -403,14 +403,14 @@ def test_by_rates_is_laid_off_what_they_give_over_the_length_between_two_points(
         omega, alpha = (rates[step.link].value - rates[step.held].value for rates in sheet.rates.values())
         arm = (end - start) * sheet.scales.length / sheet.scales.of(step.diagram)
         expected = [1j * omega * arm] if step.diagram == "velocity" else [-(omega**2) * arm, 1j * alpha * arm]
-        assert expected == pytest.approx([part.span for part in step.terms])
+        assert expected == pytest.approx([part.span for part in step.by_rates])
 
 
 def test_by_rates_that_are_nought_nothing_is_laid_off():
     evenly = {**BY_RATE, "driver": {**BY_RATE["driver"], "alpha": 0.0}}
     steps = [step for step in draft(mechanism_of(evenly)).steps if step.reason == "rates" and step.held]
     assert [("velocity", ["v"]), ("acceleration", ["an"])] == [
-        (step.diagram, [part.symbol.kind for part in step.terms]) for step in steps
+        (step.diagram, [part.symbol.kind for part in step.by_rates]) for step in steps
     ]
 
 

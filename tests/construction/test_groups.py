@@ -14,7 +14,7 @@ from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import OwnValues, Room, draft, execute, plan
 from graphkin.construction.board.instruments import pencil
-from graphkin.construction.board.steps import Curve, RateTrial, Superposed, TrialPositions
+from graphkin.construction.board.steps import Curve, TrialPositions
 from graphkin.construction.polygons import elements
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
@@ -319,10 +319,10 @@ def test_a_group_is_drawn_by_the_assumed_speed_of_a_sliding_pair(monkeypatch: py
         plan for plan in plans(*args, **more) if all(kind == "travel" for kind, _ in plan.tried)
     ))
     result = graphkin.check(STEEP)
-    assumed = [symbol.kind for s in result.sheet.steps if isinstance(s, RateTrial) for symbol, _ in s.assumed]
+    assumed = [symbol.kind for s in result.sheet.steps if s.reason == "polygon" for symbol, _ in s.rates]
     assert ["v", "v", "ar", "ar"] == assumed
-    velocity = next(step for step in result.sheet.steps if isinstance(step, Superposed))
-    ((symbol, speed),) = velocity.found
+    velocity = next(step for step in result.sheet.steps if step.reason == "open ends")
+    ((symbol, speed),) = velocity.rates
     assert "v_E@4/E@9" == str(symbol)
     assert 1e3 * float(graphkin.solve(STEEP).motion.slide("4/9")[1][0]) == pytest.approx(speed)  # along the guide
     assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
@@ -358,7 +358,7 @@ def test_trial_polygons_are_drawn_and_divided() -> None:
     sheet = draft(mechanism_of("contour-four-bars"))
     trials = {aid.trial for step in sheet.steps for aid in step.auxiliary if aid.trial}
     assert {1, 2} == trials
-    (velocity, _) = (step for step in sheet.steps if isinstance(step, Superposed))
+    (velocity, _) = (step for step in sheet.steps if step.reason == "open ends")
     one, two = (row[0] for row in velocity.apart)
     assert one * two < 0
 
@@ -384,10 +384,10 @@ def _reach(ends: list[complex]) -> tuple[float, float]:
 
 def test_trial_rates_lie_on_either_side_of_the_true_one_in_few_figures() -> None:
     sheet = draft(mechanism_of("double-butterfly"))
-    for act in (step for step in sheet.steps if isinstance(step, Superposed)):
-        ((_, true),) = act.found
-        assumed = [s.assumed[0] for s in sheet.steps if isinstance(s, RateTrial)]
-        low, high = (value for symbol, value in assumed if symbol == act.found[0][0])
+    for act in (step for step in sheet.steps if step.reason == "open ends"):
+        ((_, true),) = act.rates
+        assumed = [s.rates[0] for s in sheet.steps if s.reason == "polygon"]
+        low, high = (value for symbol, value in assumed if symbol == act.rates[0][0])
         assert 0.0 > (low - true) * (high - true)
         assert [float(f"{value:.2g}") for value in (low, high)] == [low, high]
 
@@ -395,7 +395,7 @@ def test_trial_rates_lie_on_either_side_of_the_true_one_in_few_figures() -> None
 def test_the_sheet_says_along_which_direction_a_trial_is_left_open() -> None:
     result = graphkin.check("double-butterfly")
     at = {str(ref): z for ref, z in result.sheet.points.items()}
-    divided = next(step for step in result.sheet.steps if isinstance(step, Superposed))
+    divided = next(step for step in result.sheet.steps if step.reason == "open ends")
     assert ("8",) == divided.closing
     assert ["∥KD"] == [str(way) for way in divided.ways]
     steps = [step for step in result.sheet.steps if step.diagram == "velocity"]
@@ -467,7 +467,7 @@ def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(sc
 
 def test_why_trial_polygons_are_drawn_is_known() -> None:
     def why(name: str) -> list[tuple[str, ...] | None]:
-        trials = [step for step in draft(mechanism_of(name)).steps if isinstance(step, RateTrial)]
+        trials = [step for step in draft(mechanism_of(name)).steps if step.reason == "polygon"]
         return [trial.far and trial.far.links for trial in trials if trial.trial == 1]
 
     assert [("4", "5")] * 2 == why("contour-four-bars")
@@ -476,7 +476,7 @@ def test_why_trial_polygons_are_drawn_is_known() -> None:
 
 def test_what_is_known_of_the_end_left_open_is_taken_off_in_the_sense_in_which_it_is_measured() -> None:
     sheet = draft(mechanism_of("double-butterfly"))
-    act = [step for step in sheet.steps if isinstance(step, Superposed)][1]
+    act = [step for step in sheet.steps if step.reason == "open ends"][1]
     (((taken, mm),),) = act.less
     at = {str(ref): z for ref, z in sheet.points.items()}
     scales, omega = sheet.scales, sheet.rates["omega"]["8"].value
@@ -578,7 +578,7 @@ def test_trial_polygons_of_a_mechanism_that_nothing_but_a_slide_drives_are_divid
     links = {**scene["links"], "2": {"points": ["B"], "on": "1.g"}}
     driver = {"slide": "2", "travel": -5, "velocity": 300, "acceleration": 100}
     result = graphkin.check({**scene, "frame": frame, "links": links, "driver": driver})
-    assert {"velocity", "acceleration"} == {step.diagram for step in result.sheet.steps if isinstance(step, RateTrial)}
+    assert {"velocity", "acceleration"} == {step.diagram for step in result.sheet.steps if step.reason == "polygon"}
     assert result.ok
 
 

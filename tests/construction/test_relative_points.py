@@ -10,7 +10,7 @@ import pytest
 
 import graphkin
 from graphkin.api.checked import Checked
-from graphkin.construction.board.steps import RateTrial, Step
+from graphkin.construction.board.steps import Step
 from tests.construction.test_groups import CONTOUR, everything
 
 IN_PARTS: dict[str, Any] = {  # one plate of three parts, the other of two, their hinges driven; two bars join them
@@ -93,7 +93,7 @@ def test_in_a_parallelogram_lies_no_special_point_that_could_be_told_of(way: flo
     scene = {**CONTOUR, "links": links, "sketch": {p: [at[p].real, at[p].imag] for p in "CDEF"}}
     result = graphkin.check(scene)
     assert ("superposition", []) == (result.data["construction"], off(result))
-    trials = [step for step in result.sheet.steps if isinstance(step, RateTrial)]
+    trials = [step for step in result.sheet.steps if step.reason == "polygon"]
     assert [None, None] == [trial.far for trial in trials if trial.trial == 1]
 
 

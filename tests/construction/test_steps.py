@@ -16,18 +16,12 @@ from graphkin.construction.board.steps import (
     CompassArc,
     Curve,
     Direction,
-    EndStep,
     OnPaper,
-    PlaceStep,
-    RateStep,
-    RateTrial,
     Ray,
     Reason,
     Step,
-    Superposed,
     Term,
     TrialPositions,
-    VectorStep,
 )
 from graphkin.construction.tasks import TaskStep
 from graphkin.plane import Pose
@@ -36,7 +30,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import area, say
 
 pytestmark = pytest.mark.quick
-NO_LENGTHS = {"value", "other", "plan", "per_mm", "number", "equation", "angles", "K"}
+NO_LENGTHS = {"value", "other", "plan", "per_mm", "number", "equation", "angles", "K", "trial", "rates"}
 
 
 def in_turn(value: object) -> tuple[float, ...]:
@@ -48,8 +42,7 @@ def reasons() -> set[str]:
 
 
 @pytest.mark.parametrize(("kind", "lengths"), [
-    (Step, set()), (PlaceStep, {"mm", "radii"}), (VectorStep, {"mm"}), (EndStep, set()), (RateStep, {"mm"}),
-    (TaskStep, {"mm", "radii"}),
+    (Step, {"mm", "radii", "apart", "less"}), (TaskStep, {"mm", "radii", "apart", "less"}),
 ])
 def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_known_to_be_none(
     kind: type[Step], lengths: set[str]
@@ -66,12 +59,12 @@ def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_know
 
 def test_strokes_grow_with_their_step_and_a_plan_of_its_own_scale_stays() -> None:
     arc = CompassArc(1j, 2.0, 3j)
-    assert [CompassArc(2j, 4.0, 6j)] == [*PlaceStep("cross", "arcs", strokes=(arc,)).scaled(2.0).strokes]
-    assert 7.0 == RateStep("read", "plan", "velocity", mm=7.0, per_mm=0.25, plan=1).scaled(2.0).mm
+    assert [CompassArc(2j, 4.0, 6j)] == [*Step("cross", "arcs", strokes=(arc,)).scaled(2.0).strokes]
+    assert 7.0 == Step("read", "plan", "velocity", mm=7.0, per_mm=0.25, plan=1).scaled(2.0).mm
 
 
 TAKEN_OFF = Term(Symbol("v"), True, True)
-DIVIDED = Superposed("divide", "open ends", "velocity", apart=((2.0,),), less=(((TAKEN_OFF, 3.0),),))
+DIVIDED = Step("divide", "open ends", "velocity", apart=((2.0,),), less=(((TAKEN_OFF, 3.0),),))
 
 
 def test_gaps_of_trial_polygons_and_what_is_taken_off_them_grow_with_the_polygon() -> None:
@@ -95,9 +88,9 @@ def every(kind: type) -> list[type]:
 
 
 SAME_AT_ALL_SCALES = {
-    "Term.along", "Ray.along", "Angle.value", "PlaceStep.value", "TaskStep.angles", "TaskStep.K", "RateStep.value",
-    "RateStep.other", "RateStep.per_mm", "TrialPositions.instead", "TrialPositions.trials", "TrialPositions.divided",
-    "TrialPositions.parts", "RateTrial.assumed", "Superposed.found", "Remark.size", "Rate.value", "Rate.arm",
+    "Term.along", "Ray.along", "Angle.value", "Step.value", "Step.other", "Step.per_mm", "Step.rates",
+    "TaskStep.angles", "TaskStep.K", "TrialPositions.instead", "TrialPositions.trials", "TrialPositions.divided",
+    "TrialPositions.parts", "Remark.size", "Rate.value", "Rate.arm",
     "LimitPosition.value", "LimitPosition.angle", "LimitPosition.rest", "CamStation.degree", "CamStation.way",
     "CamStation.normal", "CamStation.lift",
 }
@@ -130,7 +123,7 @@ def test_the_table_of_sentences_tells_reasons_of_steps_with_words_of_the_table()
 
 
 def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name() -> None:
-    step = PlaceStep("cross", "arcs", points=("A", "D"), point="C", radii=(12.5, 3.0))
+    step = Step("cross", "arcs", points=("A", "D"), point="C", radii=(12.5, 3.0))
     gaps = ("points.1", "point", "radii.0", "points")
     assert ["D", "C", "12.50", "A, D"] == [str(step.gap(name)) for name in gaps]
     assert "an arc about A of 12.50 mm and one about D of 3.00 mm meet in C" == str(step.phrase)
@@ -138,9 +131,9 @@ def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name(
 
 @pytest.mark.parametrize("base", ["", "3"])
 def test_an_angle_below_zero_is_laid_off_with_the_minus_of_print(base: str) -> None:
-    step = PlaceStep("lay off", "angle", link="6", point="G", value=math.radians(-30), base=base)
+    step = Step("lay off", "angle", link="6", point="G", value=math.radians(-30), base=base)
     assert "at −30 degrees" in str(step.phrase)
-    assert "−30" == RateStep("carry over", "held still", kind="angle", value=math.radians(-30)).gap("amount")
+    assert "−30" == Step("carry over", "held still", kind="angle", value=math.radians(-30)).gap("amount")
     tried = TrialPositions("trial", "positions", instead=(("5", "6", math.radians(-30)),))
     assert "−30" == tried.phrase.gaps["angle"]
 
@@ -155,7 +148,7 @@ def test_of_a_frame_without_points_only_its_guides_are_marked(name: str, sentenc
 
 def test_rates_that_trials_assume_and_find_are_told_with_their_units() -> None:
     steps = draft(mechanism_of("contour-four-bars")).steps
-    told = [say(step.phrase, "en") for step in steps if isinstance(step, RateTrial | Superposed)]
+    told = [say(step.phrase, "en") for step in steps if step.rates]
     assert "trial polygon 1: omega_3 = −6 rad/s is assumed" in told[0]
     assert told[2].endswith("omega_3 = −6.6584 rad/s")
     assert "trial polygon 1: alpha_3 = −250 rad/s² is assumed" in told[3]

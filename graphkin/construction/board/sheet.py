@@ -23,14 +23,12 @@ from graphkin.construction.board.steps import (
     DiagramName,
     Mark,
     OnPaper,
-    PlaceStep,
     PointNames,
-    RateStep,
     Reason,
     Step,
     Term,
     Vector,
-    VectorStep,
+    changed,
 )
 from graphkin.plane import Pose, cross
 from graphkin.scene.model import Mechanism
@@ -356,9 +354,9 @@ class Sheet:
             drawn[step.diagram].update({s.symbol: s for s in step.vectors})
         return drawn
 
-    def placing(self, *reasons: Reason) -> Iterator[PlaceStep]:
+    def placing(self, *reasons: Reason) -> Iterator[Step]:
         """The steps that place the mechanism for some reasons."""
-        return (step for step in self.steps if isinstance(step, PlaceStep) and step.reason in reasons)
+        return (step for step in self.steps if step.reason in reasons)
 
     def before(self, step: Step) -> tuple[Step, ...]:
         """The steps before one of them."""
@@ -454,11 +452,11 @@ def without_residues(sheet: Sheet) -> Sheet:
         step = replace(step, strokes=tuple(
             replace(s, tip=s.tail) if isinstance(s, Vector) and s.symbol in zero else s for s in step.strokes
         ))
-        if isinstance(step, RateStep) and step.reason == "sum of rates":
+        if step.reason == "sum of rates":
             return replace(step, value=rates[step.kind][step.links[0]].value)
-        if isinstance(step, RateStep):
-            return replace(step, value=0.0) if step.symbol in zero else step
-        return replace(step, mm=0.0) if isinstance(step, VectorStep) and step.symbol in zero else step
+        if step.symbol not in zero:
+            return step
+        return replace(step, value=0.0) if step.reason == "rate" else replace(step, mm=0.0)
 
     noticed = (replace(r, mm=0.0) if r.of.get("symbol") in zero else r for r in sheet.noticed)
     return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), rates=rates)
@@ -528,7 +526,7 @@ class Board:
 
     def do(self, step: Step) -> None:
         """Record a step, with its number in the order."""
-        step = replace(step, number=len(self.steps) + 1)
+        step = changed(step, number=len(self.steps) + 1)
         self.steps.append(step)
         self.causes.append((self.instrument.acts, step))
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, Self, TypeAlias, TypeVar
+from typing import Any, Literal, Self, TypeAlias, TypeVar, get_args
 
 from graphkin.plane import Pose
 from graphkin.scene.scene_tables import Diagram
@@ -25,6 +25,7 @@ Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sli
 PARTS: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
 """The role of each part of a relative acceleration, by its kind."""
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
+ROLES: tuple[Role, ...] = get_args(Role)
 
 
 # terms of vector equations
@@ -152,7 +153,7 @@ Part = Literal["", "t", "n"]
 Value = TypeVar("Value")
 LENGTHS = {
     "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "radii", "apart",
-    "poses", "less", "span", "strokes", "terms", "divisions", "line", "base", "point", "contact",
+    "poses", "less", "span", "strokes", "by_rates", "divisions", "line", "base", "point", "contact",
 }
 """Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
 
@@ -259,19 +260,53 @@ FINDS_A_POINT: Collection[Reason] = ("arcs", "arc on path", "paths")
 NO_SYMBOL, NO_POINT, NO_PHRASE = Symbol(""), PointRef(""), Phrase("")
 
 
-@dataclass(frozen=True, repr=False)
-class Step(OnPaper):
-    """An action on the board: one verb with its reason and strokes; each kind of step has the arguments of its verbs,
-    of which one that a reason does not have is empty.
+@dataclass(frozen=True, eq=False, repr=False)
+class FarPoint:
+    """Two links whose special point cannot be used.
 
     Parameters
     ----------
-    number : its number in the order, from 1; 0 before it is on a board
+    away : its distance from the joints (m; in a vector graph in the unit of its places)
+    crossing : the crossing angle of the legs' lines (rad)
+    """
+
+    links: tuple[str, str]
+    away: float
+    crossing: float
+
+
+@dataclass(frozen=True, repr=False)
+class Step(OnPaper):
+    """An action on the board: one verb with its reason, its strokes and its arguments, of which those that a reason
+    does not have are empty.
+
+    Parameters
+    ----------
     equation : the number of the equation that it helps to draw
+    number : its number in the order, from 1; 0 before it is on a board
     symbol : the vector that it draws or finds, or by which it measures
     link : the link that it places, turns or takes
     held : the link held still, from which it is seen; "" for the frame
     plan : the velocity plan of wheels that it helps to draw, by its number from 1; 0 on a diagram
+    point, points : the point that it finds, and those from which it is found, or over which it measures; or the points
+        that it marks
+    links : links that meet there, or that are seen; or the link of known rate and the base of the other rate
+    base : the reference link; "" for the x axis, or the frame
+    pairs : sliding pairs, by key
+    kind : the given or read quantity; "driven" for a special point with a driver in its leg
+    value, other : the given or read value (rad, m, rad/s, ...), and the value added to it
+    mm, radii : lengths on paper
+    per_mm : the scale of a plan; 0 on a diagram
+    size, direction : of the term of its vector in the equation
+    ref, refs : the end point of a polygon that it finds or names, and those from which it is found
+    begins : of a vector seen from a held link, the vectors at whose ends it begins; None for the pole
+    by_rates : the parts by the rates of a link, laid off in order
+    trial, rates : the number of a trial polygon, and the rates (rad/s, or the scene's units) that it assumes, or that
+        trials give by proportional division
+    far : the useless special point that made trial polygons necessary
+    closing, apart : the parts that trials leave open, and their gaps in each (mm); of plans of a train only the gaps
+    ways, between : the directions of the gaps, from the end point of the first to that of the second
+    less : the known vectors between these, each with its length in that direction (mm)
     """
 
     verb: Verb
@@ -284,6 +319,31 @@ class Step(OnPaper):
     link: str = ""
     held: str = ""
     plan: int = 0
+    point: str = ""
+    points: tuple[str, ...] = ()
+    links: tuple[str, ...] = ()
+    base: str = ""
+    pairs: tuple[str, ...] = ()
+    kind: str = ""
+    value: float = 0.0
+    other: float = 0.0
+    mm: float = 0.0
+    radii: tuple[float, ...] = ()
+    per_mm: float = 0.0
+    size: Size | None = None
+    direction: Direction = NO_DIRECTION
+    ref: PointRef = NO_POINT
+    refs: tuple[PointRef, ...] = ()
+    begins: tuple[Symbol | None, ...] = ()
+    by_rates: tuple[Term, ...] = ()
+    trial: int = 0
+    rates: tuple[tuple[Symbol, float], ...] = ()
+    far: FarPoint | None = None
+    closing: tuple[str, ...] = ()
+    apart: tuple[tuple[float, ...], ...] = ()
+    ways: tuple[Direction, ...] = ()
+    between: tuple[tuple[PointRef, PointRef], ...] = ()
+    less: tuple[tuple[tuple[Term, float], ...], ...] = ()
 
     @property
     def vectors(self) -> tuple[Vector, ...]:
@@ -304,12 +364,42 @@ class Step(OnPaper):
     @property
     def sentence(self) -> str:
         """The key of its sentence in the table of words."""
-        return SENTENCES.get(self.reason, self.reason)
+        match self.reason:
+            case "special point" if self.base:
+                return f"relative special point{' driven' * (self.kind == 'driven')}"
+            case "angle" if self.base:
+                return "lay off angle to"
+            case "frame" if not self.points:
+                return "guides of the frame"
+            case "points" if "/" in self.link:  # a block that only stands for a pin or a contact
+                return "points alone"
+            case "rolling":
+                return "rolling starts at angle" if self.link else "rolling starts at travel"
+            case "rates" if self.held:
+                return "by rate seen" if self.symbol.kind == "v" else "by rates seen"
+            case "similar" | "division" if self.held:
+                return "image seen" if self.reason == "similar" else "division seen"
+            case "polygon" if not any(value for _, value in self.rates):
+                return "trial polygon at rest"
+            case "vector":
+                return "found" if self.mm else "zero vector"
+        if self.reason in ROLES:
+            if not self.mm:
+                return "zero vector"
+            if not self.direction.names:  # it was found before
+                return "lay off so long" if self.size else "lay off as found"
+            return {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(self.reason, "lay off")
+        turning = "turning" if self.value else "zero"
+        key = SENTENCES.get(self.reason, self.reason)
+        return key.format(kind=self.kind, turning=turning, diagram=self.diagram)
 
     def gap(self, name: str) -> object:
         """The value of a gap in its sentence: an argument by its name, ``points.1`` the second of several, ``bar`` the
         points as the letters of a figure, lengths on paper as a ruler shows them; or a value that follows from its
         arguments."""
+        written = self._in_figures
+        if name in written:
+            return written[name]
         source, _, part = name.rpartition(".")
         whole = source or part
         value = getattr(self, "points" if whole == "bar" else whole)
@@ -322,183 +412,9 @@ class Step(OnPaper):
         return on_paper(value) if isinstance(value, float) else value or ""
 
     @property
-    def seen(self) -> str:
-        """The link whose rate it takes, with the link held still."""
-        return self.link + self.held
-
-    @property
-    def finds_rate(self) -> bool:
-        """Whether it finds the rate of a link against the frame."""
-        return self.reason in ("rate", "sum of rates", "plan") and not self.held
-
-    @property
-    def links_drawn(self) -> tuple[str, ...]:
-        """The links of the mechanism that it places or draws."""
-        return ()
-
-
-@dataclass(frozen=True, repr=False)
-class PlaceStep(Step):
-    """A step by which the mechanism is placed: a mark, a laid off value, a line, a crossing.
-
-    Parameters
-    ----------
-    point, points : the point that it finds, and those from which it is found; or the points that it marks
-    links : links that meet there
-    base : the reference link; "" for the x axis, or the frame
-    pairs : sliding pairs, by key
-    kind : "driven" for a special point with a driver in its leg
-    value : the given value (rad)
-    mm, radii : lengths on paper
-    """
-
-    point: str = ""
-    points: tuple[str, ...] = ()
-    links: tuple[str, ...] = ()
-    base: str = ""
-    pairs: tuple[str, ...] = ()
-    kind: str = ""
-    value: float = 0.0
-    mm: float = 0.0
-    radii: tuple[float, ...] = ()
-
-    @property
-    def sentence(self) -> str:
-        """The key of its sentence in the table of words."""
-        match self.reason:
-            case "special point" if self.base:
-                return f"relative special point{' driven' * (self.kind == 'driven')}"
-            case "angle" if self.base:
-                return "lay off angle to"
-            case "frame" if not self.points:
-                return "guides of the frame"
-            case "points" if "/" in self.link:  # a block that only stands for a pin or a contact
-                return "points alone"
-            case "rolling":
-                return "rolling starts at angle" if self.link else "rolling starts at travel"
-        return super().sentence
-
-    @property
-    def degrees(self) -> str:
-        """The given angle as it is written (degrees)."""
-        return true_minus(f"{math.degrees(self.value):.6g}")
-
-    @property
-    def links_drawn(self) -> tuple[str, ...]:
-        """The links of the mechanism that it places or draws."""
-        if self.reason in ("frame", "points", "whole link", "angle"):
-            return (self.link,)
-        placed = self.verb in ("lay off", "line", "cross") and self.reason != "rolling"
-        return tuple(name for pair in self.pairs for name in pair.split("/")) if placed else ()
-
-
-@dataclass(frozen=True, repr=False)
-class VectorStep(Step):
-    """A step that draws or finds a vector of a polygon, or a line along it.
-
-    Parameters
-    ----------
-    size, direction : of its term in the equation
-    mm : its length on paper
-    """
-
-    size: Size | None = None
-    direction: Direction = NO_DIRECTION
-    mm: float = 0.0
-
-    @property
-    def sentence(self) -> str:
-        """The key of its sentence in the table of words."""
-        if self.verb in ("lay off", "read"):
-            if not self.mm:
-                return "zero vector"
-            if self.verb == "read":
-                return "found"
-            if not self.direction.names:  # it was found before
-                return "lay off so long" if self.size else "lay off as found"
-            return {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(self.reason, "lay off")
-        return super().sentence
-
-
-@dataclass(frozen=True, repr=False)
-class EndStep(Step):
-    """A step that finds or names an end point of a polygon.
-
-    Parameters
-    ----------
-    ref, refs : the end point, and those from which it is found
-    begins : of a vector seen from a held link, the vectors at whose ends it begins; None for the pole
-    points : its points, with that which it finds, as seen from a held link
-    terms : the parts by the rates of a link, laid off in order
-    """
-
-    ref: PointRef = NO_POINT
-    refs: tuple[PointRef, ...] = ()
-    begins: tuple[Symbol | None, ...] = ()
-    points: tuple[str, ...] = ()
-    terms: tuple[Term, ...] = ()
-
-    @property
-    def sentence(self) -> str:
-        """The key of its sentence in the table of words."""
-        match self.reason:
-            case "rates" if self.held:
-                return "by rate seen" if self.symbol.kind == "v" else "by rates seen"
-            case "similar" | "division" if self.held:
-                return "image seen" if self.reason == "similar" else "division seen"
-        return super().sentence
-
-    @property
-    def start(self) -> tuple[Phrase, ...]:
-        """The ends of the vectors at which it begins."""
-        return tuple(map(end_of, self.begins))
-
-
-@dataclass(frozen=True, repr=False)
-class RateStep(Step):
-    """A step that measures a rate or the speed of a sliding pair, adds two, or carries over the motion seen from a held
-    link.
-
-    Parameters
-    ----------
-    kind : the given or read quantity
-    links : the link of known rate and the base of the other rate; or links that are seen
-    points : the bar over which it measures, or the places on a plan
-    pairs : sliding pairs, by key
-    value, other : the given or read value (rad, m, rad/s, ...), and the value added to it
-    mm : the measured length on paper
-    per_mm : the scale of a plan; 0 on a diagram
-    """
-
-    kind: str = ""
-    links: tuple[str, ...] = ()
-    points: tuple[str, ...] = ()
-    pairs: tuple[str, ...] = ()
-    value: float = 0.0
-    other: float = 0.0
-    mm: float = 0.0
-    per_mm: float = 0.0
-
-    @property
-    def sentence(self) -> str:
-        """The key of its sentence in the table of words."""
-        turning = "turning" if self.value else "zero"
-        return super().sentence.format(kind=self.kind, turning=turning, diagram=self.diagram)
-
-    @property
-    def unit(self) -> str:
-        """The unit of the rate of a link, in print."""
-        return Units().of(KINDS[self.kind].measure).written
-
-    def gap(self, name: str) -> object:
-        """The value of a gap in its sentence: an argument, the sense of turning, or a rate in figures."""
-        written = {"sense": sense_of(self.value), **self._in_figures}
-        return written[name] if name in written else super().gap(name)
-
-    @property
     def _in_figures(self) -> Mapping[str, object]:
-        """A rate in figures, as measured, as the sum of two, or on the plan of a train; or what is carried over from a
-        held link, an angle in degrees, others in SI units."""
+        """A rate in figures, as measured, as the sum of two, or on the plan of a train; what is carried over from a
+        held link, an angle in degrees, others in SI units; rates that trials assume or give, and their gaps."""
         match self.reason:
             case "held still":
                 return {"amount": true_minus(f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}")}
@@ -514,8 +430,58 @@ class RateStep(Step):
             case "plan":
                 per = amount(self.per_mm, 6)
                 return {"per": printed(per), "product": printed(product(on_paper(self.mm), per))}
-        carried = min(MOST - 1, figures(on_paper(self.mm))) if self.mm else MOST - 1
-        return {"told": printed(computed(abs(self.value), carried))}
+            case "rate":
+                carried = min(MOST - 1, figures(on_paper(self.mm))) if self.mm else MOST - 1
+                return {"told": printed(computed(abs(self.value), carried))}
+            case "polygon":
+                return _assumed([pair for pair in self.rates if pair[1]] or self.rates)
+            case "open ends" | "plans":
+                open_at = [f"{name} ({way})" for name, way in zip(self.closing, self.ways, strict=True)]
+                gaps = clauses([listed([true_minus(f"{mm:.2f}") for mm in row]) for row in self.apart])
+                of_links = [(rate(found.kind, found.link), value) for found, value in self.rates]
+                rates = listed([name + f" = {printed(amount(value, 5))}" for name, value in of_links])
+                names = listed([name for name, _ in of_links])
+                told = {"open_at": listed(open_at), "apart": gaps, "names": names, "rates": rates}
+                return {**told, **_assumed(self.rates)}
+        return {}
+
+    @property
+    def sense(self) -> Phrase:
+        """The sense of its rate."""
+        return sense_of(self.value)
+
+    @property
+    def degrees(self) -> str:
+        """The given angle as it is written (degrees)."""
+        return true_minus(f"{math.degrees(self.value):.6g}")
+
+    @property
+    def unit(self) -> str:
+        """The unit of the rate of a link, in print."""
+        return Units().of(KINDS[self.kind].measure).written
+
+    @property
+    def start(self) -> tuple[Phrase, ...]:
+        """The ends of the vectors at which it begins."""
+        return tuple(map(end_of, self.begins))
+
+    @property
+    def seen(self) -> str:
+        """The link whose rate it takes, with the link held still."""
+        return self.link + self.held
+
+    @property
+    def finds_rate(self) -> bool:
+        """Whether it finds the rate of a link against the frame."""
+        return self.reason in ("rate", "sum of rates", "plan") and not self.held
+
+    @property
+    def links_drawn(self) -> tuple[str, ...]:
+        """The links of the mechanism that it places or draws."""
+        if self.reason in ("frame", "points", "whole link", "angle"):
+            return (self.link,)
+        placed = self.verb in ("lay off", "line", "cross") and self.reason != "rolling"
+        return tuple(name for pair in self.pairs for name in pair.split("/")) if placed else ()
 
 
 Cause: TypeAlias = Step | Phrase
@@ -673,11 +639,9 @@ class TrialPositions(Step):
         replaces
     """
 
-    links: tuple[str, ...] = ()
     group: Phrase = NO_PHRASE
     driven: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
-    point: str = ""
     count: int = 0
     rolling: tuple[str, ...] = ()
     instead: tuple[tuple[str, str, float], ...] = ()
@@ -709,78 +673,6 @@ class TrialPositions(Step):
     def links_drawn(self) -> tuple[str, ...]:
         """The links of the mechanism that it places or draws."""
         return self.links
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class FarPoint:
-    """Two links whose special point cannot be used.
-
-    Parameters
-    ----------
-    away : its distance from the joints (m; in a vector graph in the unit of its places)
-    crossing : the crossing angle of the legs' lines (rad)
-    """
-
-    links: tuple[str, str]
-    away: float
-    crossing: float
-
-
-@dataclass(frozen=True, repr=False)
-class RateTrial(Step):
-    """A trial polygon.
-
-    Parameters
-    ----------
-    trial : its number
-    assumed : the assumed rates (rad/s, or the scene's units)
-    far : the useless special point that made it necessary
-    """
-
-    trial: int = 0
-    assumed: tuple[tuple[Symbol, float], ...] = ()
-    far: FarPoint | None = None
-
-    @property
-    def sentence(self) -> str:
-        """The key of its sentence in the table of words."""
-        return super().sentence if any(value for _, value in self.assumed) else "trial polygon at rest"
-
-    def gap(self, name: str) -> object:
-        """The value of a gap in its sentence: an argument, or of several rates the first by its symbol, with its
-        value."""
-        rates = _assumed([pair for pair in self.assumed if pair[1]] or self.assumed)
-        return rates[name] if name in rates else super().gap(name)
-
-
-@dataclass(frozen=True, repr=False)
-class Superposed(Step):
-    """The true rates by proportional division of trial polygons, or of plans of a train.
-
-    Parameters
-    ----------
-    found : the true rates
-    closing, apart : the parts left open, and their gaps in each trial (mm); of plans only the gaps
-    ways, between : the directions of the gaps, from the end point of the first to that of the second
-    less : the known vectors between these, each with its length in that direction (mm)
-    """
-
-    found: tuple[tuple[Symbol, float], ...] = ()
-    closing: tuple[str, ...] = ()
-    apart: tuple[tuple[float, ...], ...] = ()
-    ways: tuple[Direction, ...] = ()
-    between: tuple[tuple[PointRef, PointRef], ...] = ()
-    less: tuple[tuple[tuple[Term, float], ...], ...] = ()
-
-    def gap(self, name: str) -> object:
-        """The value of a gap in its sentence: the rates, or the gaps of the trials."""
-        open_at = listed([f"{name} ({direction})" for name, direction in zip(self.closing, self.ways, strict=True)])
-        gaps = clauses([listed([true_minus(f"{mm:.2f}") for mm in row]) for row in self.apart])
-        of_links = [(rate(found.kind, found.link), value) for found, value in self.found]
-        rates = listed([name + f" = {printed(amount(value, 5))}" for name, value in of_links])
-        names = listed([name for name, _ in of_links])
-        told = {"open_at": open_at, "apart": gaps, "names": names, "rates": rates, **_assumed(self.found)}
-        return told[name]
 
 
 # in words

@@ -24,10 +24,7 @@ from graphkin.construction.board.steps import (
     FarPoint,
     Mark,
     Order,
-    PlaceStep,
-    RateStep,
-    RateTrial,
-    Superposed,
+    Step,
     Term,
     Vector,
 )
@@ -267,7 +264,7 @@ def _mark_special(plot: Polygons, move: VectorChain) -> None:
     joints = tuple(leg[-1].end.point for leg in legs)
     driven = any(not e.unknown and (e.slide or e.joint) for leg in legs for e in leg)
     strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(name), at)
-    plot.do(PlaceStep("cross", "special point", strokes=strokes, point=name, points=joints, link=link,
+    plot.do(Step("cross", "special point", strokes=strokes, point=name, points=joints, link=link,
                  base=move.base, kind="driven" if driven else ""))
 
 
@@ -325,7 +322,7 @@ def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, 
             at = plot.places[letter] = plot.board.instrument.point(touch.at)
             plot.special.add(letter)
             strokes = (Mark(PointRef(letter), at),)
-            plot.do(PlaceStep("mark", "pitch point", strokes=strokes, point=letter, links=touch.links))
+            plot.do(Step("mark", "pitch point", strokes=strokes, point=letter, links=touch.links))
         points[name] = plot.pitch_points.get(name, name), between[name]
     return points
 
@@ -402,7 +399,7 @@ def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
         first = equations + 1 if len(plot.board.equations) > equations else None
         drawn = held_plot.board.steps
         points = [step for step in drawn if step.diagram == "mechanism"]
-        seen = RateStep("carry over", "seen from", order, (), first, held=held, links=rest.links)
+        seen = Step("carry over", "seen from", order, (), first, held=held, links=rest.links)
         for step in (*points, seen, *(step for step in drawn if step.diagram != "mechanism")):
             plot.do(step)
     for held, rest in plot.contours.get(group, ()):
@@ -554,16 +551,16 @@ class TrialPolygons:
             steps = [step for step in trial.board.steps if step.diagram == order]
             strokes = [replace(aid, trial=number) for step in steps for aid in step.auxiliary]
             assumption = self.as_symbols(assumed)
-            plot.do(RateTrial("trial", "polygon", order, tuple(strokes), trial=number, assumed=assumption, far=far))
+            plot.do(Step("trial", "polygon", order, tuple(strokes), trial=number, rates=assumption, far=far))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
         places = [[end[ref] for ref in shared] for end in ends]
         plot.board.notice(order, "magnified", links=self.group.named, size=magnified(places, gaps))
         true = self._as_noted(rates, gaps)
         edges = [edge for edge, _ in plan.open_ends]
         closing = tuple(edge.link or (edge.slide.key if edge.slide else "") for edge in edges)
-        plot.do(Superposed(
+        plot.do(Step(
             "divide", "open ends", order,
-            found=self.as_symbols(true), closing=closing, apart=tuple(map(tuple, gaps)),
+            rates=self.as_symbols(true), closing=closing, apart=tuple(map(tuple, gaps)),
             ways=tuple(Direction("square" if across else "along", e.bar if e.link else e.direction.names)
                        for e, across in plan.open_ends),
             between=tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e in edges),

@@ -18,15 +18,13 @@ from graphkin.construction.board.steps import (
     PARTS,
     Bar,
     Direction,
-    EndStep,
     Mark,
     Order,
-    RateStep,
     Ray,
     Size,
+    Step,
     Term,
     Vector,
-    VectorStep,
     changed,
 )
 from graphkin.construction.polygons.polygons import RATE, Polygons, letter
@@ -91,7 +89,7 @@ def add_rates(plot: Polygons, order: Order, link: str, links: tuple[str, str], k
     omega_2 = omega_1 + omega_21; relative to a link that stands still it needs no finding.  ``links`` are the known
     link, and that of the two which turns relative to the other."""
     if links[0] != plot.ground:
-        step = RateStep("read", "sum of rates", order, kind=RATE[order], link=link, links=links, value=known, other=add)
+        step = Step("read", "sum of rates", order, kind=RATE[order], link=link, links=links, value=known, other=add)
         plot.do(step)
 
 
@@ -227,7 +225,7 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
     whole = plot.symbol(letter(order), end)
     intersection = _lines_meet(plot, order, whole, 0j, lines, equation)
     mark = Mark(plot.label(end), intersection)
-    plot.do(EndStep("cross", "lines", order, (mark,), equation, ref=mark.ref))
+    plot.do(Step("cross", "lines", order, (mark,), equation, ref=mark.ref))
     for side, (start, _), behind in zip(sides, lines, carried, strict=True):
         if len(_open(side)) == 1:
             _fill(plot, order, side, intersection - behind, start - behind, equation)
@@ -239,8 +237,8 @@ def _carry(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, equ
     for part in parts:
         if part.span is not None:
             bar = Bar(at, at + part.span, "")
-            plot.do(VectorStep("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol,
-                               size=part.size, mm=abs(part.span), direction=part.direction))
+            plot.do(Step("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol,
+                         size=part.size, mm=abs(part.span), direction=part.direction))
             at += part.span
     return at
 
@@ -255,7 +253,7 @@ def _lines_meet(
     intersection = plot.own_values.found(symbol, tail, plot.board.cross(order, p, left, q, right, symbol))
     for through, part in lines:
         ray = Ray(through, part.along, intersection, part.direction, part.symbol)
-        plot.do(VectorStep("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.direction))
+        plot.do(Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.direction))
     return intersection
 
 
@@ -292,7 +290,7 @@ def _draw_vector(plot: Polygons, order: Order, group: LargerGroup, equation: Vec
     at = _lines_meet(plot, order, symbol, tail, lines, number)
     vector = Vector(symbol, tail, at, aid=True, trial=plot.trial)
     mm = plot.found_mm(symbol, vector.span)
-    plot.do(VectorStep("read", "vector", order, (vector,), number, symbol=symbol, mm=mm))
+    plot.do(Step("read", "vector", order, (vector,), number, symbol=symbol, mm=mm))
     if equation.base:
         special[ref] = vector.span
     else:
@@ -306,8 +304,8 @@ def _lay_off(plot: Polygons, order: Order, parts: Iterable[Term], at: complex, e
         tail, mm = at, abs(part.span)
         at = plot.board.instrument.laid_off(tail, part.span)
         plot.board.notice(order, "zero vector", symbol=part.symbol, mm=mm)
-        step = VectorStep("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=mm,
-                          direction=part.direction)
+        step = Step("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=mm,
+                    direction=part.direction)
         plot.record(Vector(part.symbol, tail, at, part.role), step)
     return at
 
@@ -322,12 +320,12 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
                 span = vector.tip - tail
                 plot.board.notice(order, "zero vector", symbol=part.symbol, mm=abs(span))
                 mm = plot.found_mm(part.symbol, span)
-                plot.record(vector, VectorStep("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
+                plot.record(vector, Step("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
                 at = tip
             else:
                 if part.symbol not in plot.drawn[order]:
                     moved = Vector(part.symbol, at, at + part.span, part.role)
-                    plot.record(moved, VectorStep("join", "put back", order, (), equation, symbol=part.symbol))
+                    plot.record(moved, Step("join", "put back", order, (), equation, symbol=part.symbol))
                 at = plot.drawn[order][part.symbol].tip
         if edge is not side[-1][0]:
             plot.reach(order, edge.end, at, equation)
@@ -350,8 +348,8 @@ def _rate(plot: Polygons, order: Order, edge: RelativeMotion, vector: Vector, gr
     source = symbol if symbol in plot.drawn[order] else None
     length = abs(arm) * plot.scales.length
     plot.rates[order][edge.link] = Rate(edge.link, value if believed is None else believed, source, read, length)
-    plot.do(RateStep("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=bar, value=value, mm=read,
-                     held=plot.held))
+    plot.do(Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=bar, value=value, mm=read,
+                 held=plot.held))
     assert not isinstance(group, Driven)
     spread(plot, order, edge.link, group)
 

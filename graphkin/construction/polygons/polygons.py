@@ -22,7 +22,6 @@ from graphkin.construction.board.steps import (
     PARTS,
     Bar,
     Direction,
-    EndStep,
     Image,
     Mark,
     Order,
@@ -31,7 +30,6 @@ from graphkin.construction.board.steps import (
     Step,
     Term,
     Vector,
-    VectorStep,
 )
 from graphkin.construction.polygons.vector_graph import VectorChain, node
 from graphkin.construction.position.links_on_paper import PlacedLinks, pushed_by_driver
@@ -294,9 +292,9 @@ class Polygons:
         symbol = self.symbol(letter(order), ref)
         if symbol in self.drawn[order]:
             if not self.held and not self.board.pricked(order, mark):
-                self.do(EndStep("mark", "letter", order, (mark,), equation, ref=mark.ref))
+                self.do(Step("mark", "letter", order, (mark,), equation, ref=mark.ref))
             return
-        step = VectorStep("join", "pole to end", order, (mark,), equation, symbol=symbol)
+        step = Step("join", "pole to end", order, (mark,), equation, symbol=symbol)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def complete(self, order: Order, name: str) -> None:
@@ -320,11 +318,11 @@ class Polygons:
         here = self.places[ref.point]
         refs = [r for r in ends if self.on(r, name)]
         if name in self.still:
-            self._reach_by(ref, ends[refs[0]], EndStep("image", "translation", order, link=name))
+            self._reach_by(ref, ends[refs[0]], Step("image", "translation", order, link=name))
             return
         same = [r for r in refs if abs(self.places[r.point] - here) <= self.tiny]
         if same:
-            step = EndStep("image", "same place", order, refs=(self.label(same[0]),))
+            step = Step("image", "same place", order, refs=(self.label(same[0]),))
             self._reach_by(ref, ends[same[0]], step)
             return
         # a special point may lie far away: it serves where the link has no other two
@@ -338,7 +336,7 @@ class Polygons:
             start = refs[0]  # a fixed point, if the link has one
             parts = self._by_rates(order, start, ref, name)
             at = added_up((part.span for part in parts if part.span is not None), ends[start])
-            self._reach_by(ref, at, EndStep("image", "rates", order, refs=(self.label(start),), link=name, terms=parts))
+            self._reach_by(ref, at, Step("image", "rates", order, refs=(self.label(start),), link=name, by_rates=parts))
             return
         points = self.links[name].points
         if {a.point, b.point, ref.point} <= points.keys():  # the shape of the link is given
@@ -350,10 +348,10 @@ class Polygons:
         lined = on_line or bool({a.point, b.point} & self.special)
         stroke = Bar(ends[a], at, name) if lined else Image(name, (ends[a], ends[b], at))
         reason: Literal["division", "similar"] = "division" if on_line else "similar"
-        step = EndStep("image", reason, order, (stroke,), refs=(self.label(a), self.label(b)), link=name)
+        step = Step("image", reason, order, (stroke,), refs=(self.label(a), self.label(b)), link=name)
         self._reach_by(ref, at, step)
 
-    def _reach_by(self, ref: PointRef, at: complex, image: EndStep) -> None:
+    def _reach_by(self, ref: PointRef, at: complex, image: Step) -> None:
         """Draw an end point that follows from others of its link."""
         order: Order = "velocity" if image.diagram == "velocity" else "acceleration"
         symbol, label = self.symbol(letter(order), ref), self.label(ref)
@@ -362,7 +360,7 @@ class Polygons:
         if not self.held:
             step: Step = replace(image, ref=label, strokes=(Mark(label, at), *image.strokes))
         elif image.reason in ("same place", "translation"):
-            step = VectorStep("join", "pole to end", order, symbol=symbol)
+            step = Step("join", "pole to end", order, symbol=symbol)
         else:
             begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in image.refs)
             corners = tuple(corner.point for corner in (*image.refs, label))
@@ -439,7 +437,7 @@ def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
         elif role in ("tangential", "sliding"):
             tail = corner
         vector = plot.drawn[order][symbol] = Vector(symbol, tail, tip, role)
-        plot.do(VectorStep("join", "asked", order, (vector,), symbol=symbol))
+        plot.do(Step("join", "asked", order, (vector,), symbol=symbol))
 
 
 def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> complex:

@@ -31,7 +31,6 @@ from graphkin.construction.board.steps import (
     CompassArc,
     Curve,
     MeasuredGap,
-    PlaceStep,
     Step,
     Stroke,
     TrialPositions,
@@ -102,9 +101,9 @@ def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechani
     for driver in reduced.starts:
         if driver.turns:
             axis = cmath.phase(paper.poses[driver.link].axis)
-            steps.append(PlaceStep("lay off", "rolling", link=driver.link, value=axis))
+            steps.append(Step("lay off", "rolling", link=driver.link, value=axis))
         else:
-            steps.append(PlaceStep("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
+            steps.append(Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
     if reduced.trial:
         steps.append(_trial_positions(so_far, reduced, poses, values))
     board = replace(reduced.opened(so_far, values.tolist()), instrument=EXACT)

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from graphkin.construction.board.instruments import EXACT, Instrument
-from graphkin.construction.board.steps import Bar, CompassArc, PlaceStep, Step
+from graphkin.construction.board.steps import Bar, CompassArc, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import Pose, Poses, added_up, cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver, PlacedLink
@@ -284,7 +284,7 @@ LOST = Intersection(0.0, 0.0, (), lambda _: ())
 """Loci that find nothing: an arc of no radius, lines along each other."""
 
 
-def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, PlaceStep]:
+def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Step]:
     """Place a driven link: the angle or the travel is laid off."""
     name, driver, pair = element.link, element.driver, element.pair
     value = paper.values[driver.key]
@@ -302,13 +302,13 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, PlaceStep]:
         hinge = paper.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (paper.links[name].points[pair.point] * paper.mm), axis)
         value = value if forward else -value
-        return pose, PlaceStep("lay off", "angle", link=name, value=value, point=pair.point, base=to)
+        return pose, Step("lay off", "angle", link=name, value=value, point=pair.point, base=to)
     known = pair.b if name == pair.a else pair.a
     pose = across(pair, name, paper.poses[known], paper.instrument.length(value * paper.mm), paper.mm)
     start = paper.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
     end = pose.origin if name == pair.a else paper.poses[known].origin
     bar = Bar(start, end, name)
-    return pose, PlaceStep("lay off", "travel", strokes=(bar,), pairs=(pair.key,), mm=abs(value) * paper.mm)
+    return pose, Step("lay off", "travel", strokes=(bar,), pairs=(pair.key,), mm=abs(value) * paper.mm)
 
 
 def _arcs(gap: float, poses: list[Poses], steps: Callable[[int], Steps], cross: float | None = None) -> Intersection:
@@ -332,7 +332,7 @@ def _rrr(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) ->
 
     def steps(k: int) -> Steps:
         arcs = CompassArc(p1, r1, places[k]), CompassArc(p2, r2, places[k])
-        return (PlaceStep("cross", "arcs", strokes=arcs, points=about, point=letter, radii=(r1, r2)),)
+        return (Step("cross", "arcs", strokes=arcs, points=about, point=letter, radii=(r1, r2)),)
 
     poses: list[Poses] = [
         {**first.through((local1, inner1), (p1, q)), **second.through((local2, inner2), (p2, q))} for q in places
@@ -355,8 +355,8 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) ->
     def steps(k: int) -> Steps:
         path, arc = Bar(q0, places[k], ""), CompassArc(p, radius, places[k])
         return (
-            PlaceStep("line", "path", strokes=(path,), point=letter, pairs=(slide.key,)),
-            PlaceStep("cross", "arc on path", strokes=(arc,), points=(outer.point,), point=letter, mm=radius),
+            Step("line", "path", strokes=(path,), point=letter, pairs=(slide.key,)),
+            Step("cross", "arc on path", strokes=(arc,), points=(outer.point,), point=letter, mm=radius),
         )
 
     poses: list[Poses] = [
@@ -387,11 +387,11 @@ def _rpr(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) ->
 
     def steps(k: int) -> Steps:
         if lined:
-            return (PlaceStep("line", "guide", strokes=(Bar(p2, p1, ""),), points=pivots, pairs=(slide.key,)),)
+            return (Step("line", "guide", strokes=(Bar(p2, p1, ""),), points=pivots, pairs=(slide.key,)),)
         # foot of the square from the pivot to the guide's parallel through the other pivot
         foot = p1 - axes[k] * g * roots[k]
         strokes = CompassArc((p1 + p2) / 2, span / 2, foot), CompassArc(p2, abs(offset), foot), Bar(foot, p1, "")
-        return (PlaceStep("line", "tangent", strokes=strokes, points=pivots, mm=abs(offset), pairs=(slide.key,)),)
+        return (Step("line", "tangent", strokes=strokes, points=pivots, mm=abs(offset), pairs=(slide.key,)),)
 
     poses: list[Poses] = []
     for axis in axes:
@@ -410,7 +410,7 @@ def _prp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) ->
     if q is None:
         return LOST
     poses = {**first.shifted(start1, q - q1), **second.shifted(start2, q - q2)}
-    crossing = PlaceStep("cross", "paths", strokes=(Bar(q1, q, ""), Bar(q2, q, "")), point=letter,
+    crossing = Step("cross", "paths", strokes=(Bar(q1, q, ""), Bar(q2, q, "")), point=letter,
                     pairs=(slides[0].key, slides[1].key))
     return Intersection(sine, abs(sine), (poses,), lambda _: (crossing,))
 
@@ -433,7 +433,7 @@ def _rpp(paper: PlacedLinks, dyad: Dyad, first: RigidBody, second: RigidBody) ->
     shift = step * (cross(want, along) / sine)
     base = p - want
     strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
-    crossing = PlaceStep("cross", "guide to point", strokes=strokes, point=outer.point, pairs=(slide.key, inner.key))
+    crossing = Step("cross", "guide to point", strokes=strokes, point=outer.point, pairs=(slide.key, inner.key))
     return Intersection(sine, abs(sine), ({**hung, **second.shifted(start, shift)},), lambda _: (crossing,))
 
 

@@ -17,7 +17,7 @@ from itertools import combinations
 
 from graphkin.construction.board.instruments import EXACT, Instrument
 from graphkin.construction.board.sheet import Board
-from graphkin.construction.board.steps import FINDS_A_POINT, Mark, PlaceStep, Reason
+from graphkin.construction.board.steps import FINDS_A_POINT, Mark, Reason, Step
 from graphkin.construction.position.group_position import all_fits, each_assembly, place_by_trial, trial_steps
 from graphkin.construction.position.links_on_paper import (
     Intersection,
@@ -108,7 +108,7 @@ def place(
     done = 0 if board is None else len(board.causes)
     if board is not None:
         fixed = tuple(Mark(PointRef(p), paper.point(frame.name, p)) for p in frame.points)
-        board.do(PlaceStep("mark", "frame", strokes=fixed, link=frame.name, points=tuple(frame.points)))
+        board.do(Step("mark", "frame", strokes=fixed, link=frame.name, points=tuple(frame.points)))
 
     def chosen(i: int, element: Dyad | LargerGroup) -> Poses:
         if isinstance(element, LargerGroup):
@@ -168,12 +168,11 @@ def _record(board: Board, paper: PlacedLinks, element: Element, steps: Steps, na
         if fresh:
             marks = tuple(Mark(PointRef(p), paper.point(name, p)) for p in fresh)
             reason: Reason = "whole link" if len(links[name].points) > 2 else "points"
-            board.do(PlaceStep("mark", reason, strokes=marks, link=name, points=fresh))
+            board.do(Step("mark", reason, strokes=marks, link=name, points=fresh))
 
     for step in steps:
-        if isinstance(step, PlaceStep):
-            step = replace(step, base="") if step.base == ground else step
-            crossed.update({step.point} if step.reason in FINDS_A_POINT else ())
+        step = replace(step, base="") if step.base == ground else step
+        crossed.update({step.point} if step.reason in FINDS_A_POINT else ())
         board.do(step)
         if isinstance(element, LargerGroup):  # what the next lines start from
             laid = step.link if step.reason == "angle" else ""

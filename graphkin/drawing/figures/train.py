@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 from graphkin.account.headings import number
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Bar, RateStep
+from graphkin.construction.board.steps import Bar, Step
 from graphkin.construction.trains import CentreLine, TrainPlan
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure
@@ -155,7 +155,7 @@ def _bars(plan: TrainPlan, k: int) -> Iterator[tuple[str, Bar]]:
         yield from ((link, bar) for bar in step.strokes if on == k and isinstance(bar, Bar))
 
 
-def foot(line: RateStep) -> float:
+def foot(line: Step) -> float:
     """The place where the parallel to a link's line cuts the rate scale (mm), counter-clockwise to the right."""
     return math.copysign(line.mm, line.value)
 
@@ -191,7 +191,7 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan, steps: Steps) -> Piece:
     return plate.piece
 
 
-def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[RateStep]:
+def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[Step]:
     """The line of each link of the scene from which its rate is read."""
     links = dict.fromkeys(link for _, link in plan.lines if link in sheet.scene.by_name)
     lines = (plan.line(link) for link in links if link != sheet.scene.frame.name)
@@ -201,7 +201,7 @@ def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[RateStep]:
 def _table(page: FigurePage, plan: TrainPlan) -> Block:
     """The readings of the rate scale: mm, and the rate."""
     along, rows = page.sheet.scene.units.of(plan.order), []
-    tried = {symbol.link for symbol, _ in plan.trial.found} if plan.trial else ()
+    tried = {symbol.link for symbol, _ in plan.trial.rates} if plan.trial else ()
     for line in _plan_lines(page.sheet, plan):
         read = on_paper(line.mm)
         size = printed(product(read, amount(plan.turning, 12)))

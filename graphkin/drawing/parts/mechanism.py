@@ -15,7 +15,7 @@ from graphkin.account.given import slide_index
 from graphkin.account.notation import Notation
 from graphkin.account.voice import SAME
 from graphkin.construction.board.sheet import Sheet
-from graphkin.construction.board.steps import Bar, CompassArc, Curve, PlaceStep, RateStep
+from graphkin.construction.board.steps import Bar, CompassArc, Curve
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import (
@@ -388,7 +388,7 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
                 if value:
                     arc("mechanism", f"driver-{link}{tail}", kind, link, driver.relative_to, value, here.since(link))
     drawn = [step for step in here.sheet.steps
-             if isinstance(step, RateStep) and (step.finds_rate or step.reason == "given on plan")]
+             if step.finds_rate or step.reason == "given on plan"]
     found = {(step.kind, step.link): step.number for step in drawn}
     named = here.scene.whole.by_name  # not of bars that stand for cams
     for kind, rates in here.sheet.rates.items():
@@ -456,7 +456,7 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
     of a tangent the line to its pivot."""
     under: list[Primitive] = [
         Group((Line.between(s.a, s.b, strokes.CONSTRUCTION),), classes=("tangent",), step=step.number)
-        for step in here.steps if isinstance(step, PlaceStep) and step.reason == "tangent"
+        for step in here.steps if step.reason == "tangent"
         for s in step.strokes if isinstance(s, Bar)
     ]
     over: list[Primitive] = []
@@ -494,7 +494,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
     for step in sheet.steps:
         if step.diagram != "mechanism":
             continue
-        if isinstance(step, PlaceStep) and step.reason == "special point":
+        if step.reason == "special point":
             lines = tuple(
                 Line.between(s.a, s.b, strokes.DIRECTION)
                 for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
