@@ -178,7 +178,7 @@ def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
         if s.diagram == equation.diagram and s.equation != equation.number and s.reason != "polygon"
     )
     return next(
-        (s.number for s in earlier for v in s.strokes if isinstance(v, Vector) and v.symbol == term.symbol), 0
+        (s.number for s in earlier for v in s.each(Vector) if v.symbol == term.symbol), 0
     )
 
 

@@ -124,9 +124,7 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
             x, y = (number(part * per_mm if abs(part) > ROUNDED else 0.0, 5) for part in (z.real, z.imag))
             said.append(say(Phrase("point lies", point=ref.point, x=x, y=y, unit=unit), language))
     for diagram in diagrams:
-        for step in sheet.steps:
-            if step.diagram == diagram:
-                said.append(f"{step.number}. {_sentence(step.phrase, language)}")
+        said += (f"{step.number}. {_sentence(step.phrase, language)}" for step in sheet.of(diagram))
         if diagram != "mechanism":
             said += _vectors(sheet, diagram, language)
     said += (_sentence(note, language) for note in remarks(sheet))

@@ -77,7 +77,7 @@ class InMechanism(Telling):
         step, link = self.step, self.step.link
         own = self.sheet.structure.links[link].points if link in self.sheet.structure.links else {}
         before = [one for one in self.sheet.before(step) if one.diagram == "mechanism"]
-        standing = {s.ref.point for one in before for s in one.strokes if isinstance(s, Mark)}
+        standing = {s.ref.point for one in before for s in one.each(Mark)}
         crossed = (one for one in before if one.reason in FINDS_A_POINT)
         found = {one.point for one in crossed} - standing  # on no link yet
         known = [p for p in own if p in standing]
@@ -143,7 +143,7 @@ class InMechanism(Telling):
         """The side of the line between two points of a point found by arcs, or of the crossing of circles for a
         tangent."""
         one, other = map(self.at, self.step.points[:2])
-        arcs = [s.at for s in self.step.strokes if isinstance(s, CompassArc)]
+        arcs = [s.at for s in self.step.each(CompassArc)]
         found = [self.at(self.step.point)] if self.step.reason == "arcs" else arcs
         if one is None or other is None or not found or found[0] is None or abs(other - one) < SAME:
             return None
@@ -154,7 +154,7 @@ class InMechanism(Telling):
         """The choice between the crossings of an arc with a straight path, as seen on the paper."""
         point, bars = self.step.point, [
             s.b - s.a for one in self.sheet.placing("path") if one.point == self.step.point
-            for s in one.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
+            for s in one.each(Bar) if abs(s.b - s.a) > SAME
         ]
         centre, at = self.at(self.step.points[0]), self.at(point)
         if centre is None or at is None or not bars:

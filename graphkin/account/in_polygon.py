@@ -72,15 +72,15 @@ class InPolygon(Telling):
     @cached_property
     def drawn(self) -> Vector | None:
         """The vector of a step; vectors of trial polygons have no letters."""
-        return next((s for s in self.step.strokes if isinstance(s, Vector) and not s.trial), None)
+        return next((s for s in self.step.each(Vector) if not s.trial), None)
 
     @cached_property
     def places(self) -> tuple[complex, complex] | None:
         """The places where its vector begins and ends (mm); of a line, a place on it."""
         if self.drawn is not None:
             return self.drawn.tail, self.drawn.tip
-        bars = ((s.a, s.b) for s in self.step.strokes if isinstance(s, Bar))
-        rays = ((s.through, s.through) for s in self.step.strokes if isinstance(s, Ray))
+        bars = ((s.a, s.b) for s in self.step.each(Bar))
+        rays = ((s.through, s.through) for s in self.step.each(Ray))
         return next(bars, next(rays, None))
 
     @property

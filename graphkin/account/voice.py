@@ -67,10 +67,11 @@ class PolygonPoints:
 
     @cached_property
     def _steps(self) -> tuple[Step, ...]:
-        return tuple(step for step in self.sheet.steps if step.diagram == self.diagram)
+        return self.sheet.of(self.diagram)
 
     @cached_property
-    def _vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
+    def vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
+        """Each vector, with the number of the step that drew it last."""
         return {s.symbol: (step.number, s) for step in self._steps for s in step.vectors}
 
     @cached_property
@@ -87,9 +88,9 @@ class PolygonPoints:
         at rest."""
         places = {0j: [PointRef(p) for p in self.sheet.scene.frame.points]}
         known = set(places[0j])
-        marks = [stroke for step in self._steps for stroke in step.strokes if isinstance(stroke, Mark)]
+        marks = [mark for step in self._steps for mark in step.each(Mark)]
         special = self.sheet.special_points  # shown where on the paper
-        ends = {symbol.of for symbol in self._vectors if symbol.to is None}
+        ends = {symbol.of for symbol in self.vectors if symbol.to is None}
         ends |= {mark.ref for mark in marks if mark.ref.point in special and self.seen(mark.at)}
         for mark in marks:
             if mark.ref in ends - known:
@@ -133,10 +134,10 @@ class PolygonPoints:
     def _components(self) -> Iterator[NamedPoint]:
         """The ends of components, then of known components that lead to a special point or are laid off before their
         turn."""
-        for step, vector in self._vectors.values():
+        for step, vector in self.vectors.values():
             if vector.role not in ("resultant", "relative") and abs(vector.span) >= ZERO:
                 yield NamedPoint(vector.tip, symbol=vector.symbol, role=vector.role, step=step)
-        known = set(self._vectors)
+        known = set(self.vectors)
         for one, stroke in ((step, stroke) for step in self._steps for stroke in step.strokes):
             if isinstance(stroke, Vector) and stroke.aid and not stroke.trial:
                 symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip

@@ -96,7 +96,7 @@ class TaskBoard(Board):
     @property
     def sheet(self) -> Sheet:
         """The board as a sheet."""
-        marks = (stroke for step in self.steps for stroke in step.strokes if isinstance(stroke, Mark))
+        marks = (mark for step in self.steps for mark in step.each(Mark))
         points = {mark.ref: mark.at for mark in marks if mark.ref.point}
         return Sheet(
             NO_MECHANISM, analyse(NO_MECHANISM), self.instrument.name, Scales(self.scale, 1.0, 1.0), points,

@@ -647,7 +647,7 @@ def _stage(
     """A stage with its figure, on which strokes after step ``begun`` are emphasised."""
     sheet = lesson.sheet
     drawn = pictures.stage_picture(lesson, layers, stage.diagram, begun, stage.last)
-    start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
+    start = sheet.of(stage.diagram)[0].number
     key = "figure whole" if begun == start else "figure with step"
     if start != begun != stage.last:
         key = "figure so far"

@@ -93,7 +93,7 @@ def bare_picture(figure: Drawing) -> Drawing:
 
 def stage_picture(lesson: Lesson, layers: Layers, diagram: DiagramName, first: int, last: int) -> Drawing:
     """A figure up to step ``last``, the strokes from step ``first`` on with a light band."""
-    steps = [step.number for step in lesson.sheet.steps if step.diagram == diagram]
+    steps = [step.number for step in lesson.sheet.of(diagram)]
     seen = so_far(layers, first if first > steps[0] else last + 1, last)
     if first <= steps[0]:
         whole = so_far(layers, steps[0], last)

@@ -19,8 +19,8 @@ from graphkin.construction.board.instruments import EXACT, nudged
 from graphkin.construction.board.steps import ORDERS
 from graphkin.construction.plan import Stages, positioned
 from graphkin.construction.polygons import elements, seen_from
+from graphkin.construction.polygons.elements import contours
 from graphkin.construction.polygons.polygons import OwnValues
-from graphkin.construction.polygons.seen_from import contours
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools

@@ -354,6 +354,10 @@ class Sheet:
             drawn[step.diagram].update({s.symbol: s for s in step.vectors})
         return drawn
 
+    def of(self, diagram: DiagramName) -> tuple[Step, ...]:
+        """The steps of a diagram."""
+        return tuple(step for step in self.steps if step.diagram == diagram)
+
     def placing(self, *reasons: Reason) -> Iterator[Step]:
         """The steps that place the mechanism for some reasons."""
         return (step for step in self.steps if step.reason in reasons)
@@ -364,14 +368,14 @@ class Sheet:
 
     def trials(self, diagram: DiagramName) -> list[Vector]:
         """The vectors of trial polygons in a diagram."""
-        return [aid for step in self.steps if step.diagram == diagram for aid in step.auxiliary if aid.trial]
+        return [aid for step in self.of(diagram) for aid in step.auxiliary if aid.trial]
 
     def vectors_seen(self, diagram: DiagramName) -> Iterator[Vector]:
         """The vectors of a diagram that are seen from held links, without those that lead to special points."""
         held = {step.held for step in self.steps if step.reason == "seen from"}
         special = self.special_points.keys()
-        for step in self.steps if held else ():
-            for aid in step.auxiliary if step.diagram == diagram else ():
+        for step in self.of(diagram) if held else ():
+            for aid in step.auxiliary:
                 of, to = aid.symbol.of, aid.symbol.to
                 if to is None or special & {to.point, of.point if of else ""}:
                     continue
@@ -380,11 +384,11 @@ class Sheet:
 
     def carried(self, diagram: DiagramName) -> Iterator[complex]:
         """The ends (mm) of vectors that are laid off before their turn in the chain, except those of special points."""
-        for step in self.steps:
-            if step.diagram == diagram and step.reason == "before its turn":
+        for step in self.of(diagram):
+            if step.reason == "before its turn":
                 points = {ref.point for ref in (step.symbol.of, step.symbol.to) if ref is not None}
                 if not points & self.special_points.keys():
-                    yield from (z for bar in step.strokes if isinstance(bar, Bar) for z in (bar.a, bar.b))
+                    yield from (z for bar in step.each(Bar) for z in (bar.a, bar.b))
 
     @cached_property
     def extents(self) -> dict[Diagram, Rectangle]:
@@ -545,8 +549,7 @@ class Board:
         if any(mark in step.strokes for step in self.steps if step.diagram == diagram):
             return True
         last = self.steps[-1]
-        ends = (s.tip for s in last.strokes if last.diagram == diagram and isinstance(s, Vector))
-        if mark.at not in ends:
+        if last.diagram != diagram or all(mark.at != vector.tip for vector in last.each(Vector)):
             return False
         self.steps[-1] = replace(last, strokes=(*last.strokes, mark))
         return True

@@ -348,12 +348,16 @@ class Step(OnPaper):
     @property
     def vectors(self) -> tuple[Vector, ...]:
         """Its vectors, without those of the construction only."""
-        return tuple(s for s in self.strokes if isinstance(s, Vector) and not s.aid)
+        return tuple(s for s in self.each(Vector) if not s.aid)
 
     @property
     def auxiliary(self) -> tuple[Vector, ...]:
         """Its vectors of the construction only."""
-        return tuple(s for s in self.strokes if isinstance(s, Vector) and s.aid)
+        return tuple(s for s in self.each(Vector) if s.aid)
+
+    def each(self, kind: type[Value]) -> tuple[Value, ...]:
+        """Its strokes of a kind."""
+        return tuple(s for s in self.strokes if isinstance(s, kind))
 
     @property
     def phrase(self) -> Phrase:
@@ -440,9 +444,8 @@ class Step(OnPaper):
                 gaps = clauses([listed([true_minus(f"{mm:.2f}") for mm in row]) for row in self.apart])
                 of_links = [(rate(found.kind, found.link), value) for found, value in self.rates]
                 rates = listed([name + f" = {printed(amount(value, 5))}" for name, value in of_links])
-                names = listed([name for name, _ in of_links])
-                told = {"open_at": listed(open_at), "apart": gaps, "names": names, "rates": rates}
-                return {**told, **_assumed(self.rates)}
+                parted = {"open_at": listed(open_at), "apart": gaps, "names": listed([name for name, _ in of_links])}
+                return {**parted, "rates": rates, **_assumed(self.rates)}
         return {}
 
     @property

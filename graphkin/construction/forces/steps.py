@@ -127,7 +127,7 @@ class ForceStep(Step):
     @property
     def forces(self) -> tuple[ForceVector, ...]:
         """The forces that it lays off, or by which it closes a polygon."""
-        return tuple(stroke for stroke in self.strokes if isinstance(stroke, ForceVector))
+        return self.each(ForceVector)
 
 
 def shifted_line(force: complex, at: complex, couple: float, mm: float) -> tuple[complex, float]:

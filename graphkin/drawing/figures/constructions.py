@@ -331,7 +331,7 @@ def scaled_cam(scene: Mechanism, cam: LawCam) -> Sheet:
 
 def _curves(sheet: Sheet) -> list[Curve]:
     """The pitch curve under a roller, and the profile."""
-    return [stroke for step in sheet.steps for stroke in step.strokes if isinstance(stroke, Curve)]
+    return [curve for step in sheet.steps for curve in step.each(Curve)]
 
 
 def cam_figure(scene: Mechanism, cam: LawCam, sheet: Sheet, notes: Sequence[Phrase], language: str) -> Drawing:

@@ -152,7 +152,7 @@ def _velocities(page: FigurePage, plan: TrainPlan, k: int, steps: Steps, start: 
 def _bars(plan: TrainPlan, k: int) -> Iterator[tuple[str, Bar]]:
     """The lines over a line of centres, by their links."""
     for (on, link), step in plan.lines.items():
-        yield from ((link, bar) for bar in step.strokes if on == k and isinstance(bar, Bar))
+        yield from ((link, bar) for bar in step.each(Bar) if on == k)
 
 
 def foot(line: Step) -> float:

@@ -457,12 +457,11 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
     under: list[Primitive] = [
         Group((Line.between(s.a, s.b, strokes.CONSTRUCTION),), classes=("tangent",), step=step.number)
         for step in here.steps if step.reason == "tangent"
-        for s in step.strokes if isinstance(s, Bar)
+        for s in step.each(Bar)
     ]
     over: list[Primitive] = []
     arcs = [
-        (step, stroke) for step in here.steps
-        for stroke in step.strokes if isinstance(stroke, CompassArc) and stroke.radius > 1e-9
+        (step, arc) for step in here.steps for arc in step.each(CompassArc) if arc.radius > 1e-9
     ]
     bars: dict[complex, set[complex]] = {}
     for _, arc in arcs:
@@ -491,16 +490,14 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
     over: list[Primitive] = []  # lines that run over the areas of links
     labels: list[Label] = []
     curves = 0
-    for step in sheet.steps:
-        if step.diagram != "mechanism":
-            continue
+    for step in sheet.of("mechanism"):
         if step.reason == "special point":
             lines = tuple(
                 Line.between(s.a, s.b, strokes.DIRECTION)
-                for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
+                for s in step.each(Bar) if abs(s.b - s.a) > SAME
             )
             over.append(Group(lines, id=f"special-{step.point}", classes=("special",), step=step.number))
-        for curve in (s for s in step.strokes if isinstance(s, Curve)):
+        for curve in step.each(Curve):
             curves += 1
             parts: list[Primitive] = [Polyline(tuple(map(on_page, curve.curve)), strokes.TRIAL_CURVE)]
             for number, z in enumerate(curve.at, 1):
@@ -512,7 +509,6 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
             id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")
             drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
         if step.reason == "positions":
-            goals = [s for s in step.strokes if isinstance(s, Bar)]
-            ways = [Line.between(s.a, s.b, strokes.DIRECTION) for s in goals]
+            ways = [Line.between(goal.a, goal.b, strokes.DIRECTION) for goal in step.each(Bar)]
             drawn += [Group((way,), classes=("trial",), step=step.number) for way in ways]
     return Piece({"construction": tuple(drawn), "mechanism": tuple(over)}, tuple(labels))

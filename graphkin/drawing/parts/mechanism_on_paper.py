@@ -91,7 +91,7 @@ class MechanismOnPaper:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """The steps that draw it."""
-        return tuple(step for step in self.sheet.steps if step.diagram == "mechanism")
+        return self.sheet.of("mechanism")
 
     def since(self, link: str) -> int | None:
         """The step from which a link is shown: all its points are marked, and it is drawn."""
@@ -115,7 +115,7 @@ class MechanismOnPaper:
         """The first step that marks each point of the mechanism."""
         found: dict[str, int] = {}
         for step in self.steps:
-            for mark in (s for s in step.strokes if isinstance(s, Mark)):
+            for mark in step.each(Mark):
                 found.setdefault(mark.ref.point, step.number)
         return found
 

@@ -75,12 +75,12 @@ class PolygonOnPage:
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
-        return tuple(step for step in self.sheet.steps if step.diagram == self.diagram)
+        return self.sheet.of(self.diagram)
 
-    @cached_property
+    @property
     def vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
         """Each vector, with the number of the step that drew it last."""
-        return {s.symbol: (step.number, s) for step in self.steps for s in step.vectors}
+        return self.lettered.vectors
 
     @cached_property
     def colours(self) -> Mapping[Symbol, str]:
@@ -108,7 +108,7 @@ class PolygonOnPage:
     @cached_property
     def ends_since(self) -> Mapping[PointRef, int]:
         """The first step that marks the end point of each point."""
-        marks = ((s.ref, step.number) for step in self.steps for s in step.strokes if isinstance(s, Mark))
+        marks = ((s.ref, step.number) for step in self.steps for s in step.each(Mark))
         return dict(reversed([*marks]))
 
     def since(self, detail: Detail) -> int:
@@ -150,15 +150,13 @@ def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box
     vectors = [*sheet.vectors[diagram].values(), *sheet.vectors_seen(diagram), *sheet.trials(diagram)]
     ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
     box = Box.around(on_page(z) for z in ends)
-    for step in sheet.steps:
-        for stroke in step.strokes:
-            if step.diagram == diagram and isinstance(stroke, Bar):
-                wider = box.joined(Box.around((on_page(stroke.a), on_page(stroke.b))))
-                if within is None:
-                    fits = max(wider.width - box.width, wider.height - box.height) < FAR
-                else:
-                    fits = wider.width <= within.width and wider.height <= within.height
-                box = wider if fits else box
+    for bar in (bar for step in sheet.of(diagram) for bar in step.each(Bar)):
+        wider = box.joined(Box.around((on_page(bar.a), on_page(bar.b))))
+        if within is None:
+            fits = max(wider.width - box.width, wider.height - box.height) < FAR
+        else:
+            fits = wider.width <= within.width and wider.height <= within.height
+        box = wider if fits else box
     return box
 
 
@@ -402,7 +400,7 @@ def ring_numerals(here: PolygonOnPage, enlarged: Sequence[Detail], around: Obsta
 def _images(here: PolygonOnPage) -> Iterator[Primitive]:
     count: Counter[str] = Counter()
     for step in here.steps:
-        for image in (s for s in step.strokes if isinstance(s, Image)):
+        for image in step.each(Image):
             count[image.link] += 1
             tail = f"-{count[image.link]}" if count[image.link] > 1 else ""
             outline = strokes.CONSTRUCTION.coloured(colour_of_link(here.sheet.scene, image.link))
@@ -421,7 +419,7 @@ def _images(here: PolygonOnPage) -> Iterator[Primitive]:
 def _bars(here: PolygonOnPage) -> Iterator[Piece]:
     """Thin straight strokes; a vector added before its turn in the chain has an arrowhead and its name."""
     for step in here.steps:
-        for bar in (s for s in step.strokes if isinstance(s, Bar)):
+        for bar in step.each(Bar):
             if abs(bar.b - bar.a) <= SAME or here.covered(bar.a, bar.b):
                 continue
             clipped = here.panel.clip(here.at(bar.a), here.at(bar.b))
@@ -434,10 +432,9 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
                 head = min(POINTER.head_length, 0.7 * length)
                 parts.append(arrowhead(tip, clipped[1] - clipped[0], head, POINTER.head_width, strokes.BLACK))
             if carried and length > 4.0:
-                markup, id = rich(here.letters.arrow(step.symbol), 3.0), f"label-carried-{step.symbol.id}"
-                names.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=3, since=step.number,
-                                      key=step_number(step.number)))
-            drawn = Group(tuple(parts), classes=("construction",), step=step.number, since=step.number)
+                id = f"label-carried-{step.symbol.id}"
+                names.append(_aid_name(here.letters.arrow(step.symbol), clipped, id, 3, step.number))
+            drawn = Group(tuple(parts), classes=("construction",), step=step.number)
             yield Piece({"construction": (drawn,)}, tuple(names))
 
 
@@ -445,7 +442,7 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
     """Lines known by direction only, each named once if several lead to one point."""
     named: set[tuple[RichText, complex]] = set()
     for step in here.steps:
-        for ray in (s for s in step.strokes if isinstance(s, Ray)):
+        for ray in step.each(Ray):
             end = ray.to if ray.to is not None else ray.through
             whole, free = _line(here, ray, end)
             names: list[Label] = []
@@ -455,11 +452,16 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
                 if key not in named and abs(free[1] - free[0]) > 1.0:
                     named.add(key)
                     id = f"label-direction-{step.number:02d}"
-                    names.append(Label.of(rich(markup, 3.0), free, id, colour=strokes.GREY, rank=4,
-                                          classes=("direction",), since=step.number, key=step_number(step.number)))
+                    names.append(_aid_name(markup, free, id, 4, step.number, "direction"))
             lines = (Line(*whole, strokes.DIRECTION),) if whole is not None else ()
-            drawn = Group(lines, classes=("direction",), step=step.number, since=step.number)
+            drawn = Group(lines, classes=("direction",), step=step.number)
             yield Piece({"construction": (drawn,)}, tuple(names))
+
+
+def _aid_name(name: RichText, along: Segment, id: str, rank: int, step: int, *classes: str) -> Label:
+    """The name of what only helps to draw, from its step on; in a crowd the number of the step replaces it."""
+    return Label.of(rich(name, 3.0), along, id, colour=strokes.GREY, rank=rank, classes=classes, since=step,
+                    key=step_number(step))
 
 
 def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
@@ -549,10 +551,8 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
             of, to = aid.symbol.of, aid.symbol.to
             of_one_point = of is not None and to is not None and of.point == to.point
             if not trial and (of_one_point or aid.symbol.seen) and abs(clipped[1] - clipped[0]) > 4.0:
-                markup, id = rich(here.letters.arrow(aid.symbol), 3.0), f"label-special-{aid.symbol.id}"
-                rank = 3 if to and to.link in held else 4
-                labels.append(Label.of(markup, clipped, id, colour=strokes.GREY, rank=rank, since=step.number,
-                                       key=step_number(step.number)))
+                rank, id = 3 if to and to.link in held else 4, f"label-special-{aid.symbol.id}"
+                labels.append(_aid_name(here.letters.arrow(aid.symbol), clipped, id, rank, step.number))
             if trial and whole and to is None and of is not None and same_place(aid.tip) not in named:
                 named.add(same_place(aid.tip))
                 letter = here.letters.end(here.diagram, of)
@@ -563,5 +563,5 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                     labels.append(Label.of(rich(numbered, 2.5), here.at(aid.tip), name, colour=strokes.GREY,
                             toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",), since=step.number))
         classes = (f"trial-{trial}",) if trial else ("special",)
-        drawn = Group(tuple(parts), classes=classes, step=step.number, since=step.number)
+        drawn = Group(tuple(parts), classes=classes, step=step.number)
         yield Piece({"construction": (drawn,)}, tuple(labels))
