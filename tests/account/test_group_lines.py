@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import re
 from itertools import combinations
+from types import SimpleNamespace
 
 import pytest
 
 from graphkin import draw
 from graphkin.account.account import telling, why, written_lines
+from graphkin.account.in_mechanism import InMechanism
 from graphkin.account.notation import notation_of
 from graphkin.account.voice import Account
 from graphkin.construction import draft
 from graphkin.construction.board.sheet import Equation
-from graphkin.construction.board.steps import TrialPositions
+from graphkin.construction.board.steps import Step, TrialPositions
 from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.text import runs_width, wrapped
@@ -226,3 +228,11 @@ def test_the_rate_that_a_division_gives_is_the_value_of_its_sum():
     account = Account(sheet, notation_of(sheet, "chinese"))
     said = " ".join(str(telling(account, step).sentence("en")) for step in sheet.steps if step.reason == "open ends")
     assert "α_3 = 7.562 (7.5619) rad/s², that is 6 + 11.42 / (10.51 + 11.42) × 3" in said
+
+
+def test_the_way_to_the_points_of_a_group_ends_where_the_trials_of_the_next_group_begin():
+    trial = TrialPositions("trial", "positions", number=1)
+    marks = [Step("mark", "points", link=link, points=(point,)) for point, link in (("B", "2"), ("E", "4"))]
+    sheet = SimpleNamespace(steps=(trial, marks[0], trial, marks[1]))
+    account = SimpleNamespace(sheet=sheet, letters=SimpleNamespace(point=sign))
+    assert ["B (2)"] == [str(line) for line in InMechanism(account, trial)._route()]

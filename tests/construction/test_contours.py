@@ -18,7 +18,7 @@ from graphkin.construction import execute, plan
 from graphkin.construction.board.instruments import EXACT, nudged
 from graphkin.construction.board.steps import ORDERS
 from graphkin.construction.plan import Stages, positioned
-from graphkin.construction.polygons import elements, seen_from
+from graphkin.construction.polygons import elements
 from graphkin.construction.polygons.elements import contours
 from graphkin.construction.polygons.polygons import OwnValues
 from graphkin.plane import cross
@@ -323,10 +323,10 @@ def test_a_special_point_of_a_contour_and_one_of_the_group_around_it_are_two_poi
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-8 * max(abs(row.exact), 1e-3)]
 
 
-def joints_in(scene: dict[str, Any]) -> list[seen_from.Joint]:
-    joints: list[seen_from.Joint] = []
+def joints_in(scene: dict[str, Any]) -> list[elements.Joint]:
+    joints: list[elements.Joint] = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(seen_from, "contours", lambda links, between, turning: joints.extend(between) or [])
+        patch.setattr(elements, "contours", lambda links, between, turning: joints.extend(between) or [])
         plan(mechanism_of(scene))
     return joints
 

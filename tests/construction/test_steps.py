@@ -169,3 +169,13 @@ def test_each_pin_in_a_slot_of_a_crank_begins_with_the_crank_s_own_point_there()
     }))
     laid = [str(step.symbol) for step in sheet.steps if step.diagram == "velocity" and step.verb == "lay off"]
     assert ["v_P@1", "v_Q@1"] == laid
+
+
+@pytest.mark.parametrize(("reason", "links"), [("travel", ("3", "2")), ("rolling", ())])
+def test_a_travel_places_the_links_of_its_pair_a_start_of_rolling_none(reason: Reason, links: tuple[str, ...]) -> None:
+    assert links == Step("lay off", reason, pairs=("3/2",)).links_drawn
+
+
+@pytest.mark.parametrize(("kind", "sentence"), [("v", "by rate seen"), ("a", "by rates seen")])
+def test_a_velocity_seen_from_a_held_link_is_given_by_one_rate_an_acceleration_by_two(kind: str, sentence: str) -> None:
+    assert sentence == Step("image", "rates", symbol=Symbol(kind), held="2").sentence
