@@ -453,14 +453,14 @@ def without_residues(sheet: Sheet) -> Sheet:
                 rates[kind][name] = replace(rate, value=value, mm=0.0)
 
     def cleared(step: Step) -> Step:
-        step = replace(step, strokes=tuple(
+        step = changed(step, strokes=tuple(
             replace(s, tip=s.tail) if isinstance(s, Vector) and s.symbol in zero else s for s in step.strokes
         ))
         if step.reason == "sum of rates":
-            return replace(step, value=rates[step.kind][step.links[0]].value)
+            return changed(step, value=rates[step.kind][step.links[0]].value)
         if step.symbol not in zero:
             return step
-        return replace(step, value=0.0) if step.reason == "rate" else replace(step, mm=0.0)
+        return changed(step, value=0.0) if step.reason == "rate" else changed(step, mm=0.0)
 
     noticed = (replace(r, mm=0.0) if r.of.get("symbol") in zero else r for r in sheet.noticed)
     return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), rates=rates)

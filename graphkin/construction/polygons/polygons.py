@@ -30,6 +30,7 @@ from graphkin.construction.board.steps import (
     Step,
     Term,
     Vector,
+    changed,
 )
 from graphkin.construction.polygons.vector_graph import VectorChain, node
 from graphkin.construction.position.links_on_paper import PlacedLinks, pushed_by_driver
@@ -189,7 +190,7 @@ class Polygons:
         elif step.symbol.kind:
             early = step.reason == "before its turn"
             strokes = (s for s in step.strokes if early or isinstance(s, Ray) or (isinstance(s, Vector) and s.aid))
-            self.board.do(replace(step, strokes=tuple(strokes)))
+            self.board.do(changed(step, strokes=tuple(strokes)))
 
     def symbol(self, kind: str, end: PointRef, start: PointRef | None = None) -> Symbol:
         """The motion of a point, or a part of it, from the pole or from that of another point, by its letters.  Seen
@@ -281,7 +282,7 @@ class Polygons:
         of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
         if self.trial or self.held or of_special:
             vector = replace(vector, aid=True, trial=self.trial)
-        self.do(replace(step, strokes=(vector, *step.strokes)))
+        self.do(changed(step, strokes=(vector, *step.strokes)))
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
         """Name an end point, and draw the vector to it from the pole."""
@@ -358,13 +359,13 @@ class Polygons:
         at = self.own_values.found(symbol, 0j, at)
         self.ends[order][ref] = at
         if not self.held:
-            step: Step = replace(image, ref=label, strokes=(Mark(label, at), *image.strokes))
+            step = changed(image, ref=label, strokes=(Mark(label, at), *image.strokes))
         elif image.reason in ("same place", "translation"):
             step = Step("join", "pole to end", order, symbol=symbol)
         else:
             begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in image.refs)
             corners = tuple(corner.point for corner in (*image.refs, label))
-            step = replace(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
+            step = changed(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def on(self, ref: PointRef, name: str) -> bool:
