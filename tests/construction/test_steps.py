@@ -9,24 +9,30 @@ from typing import get_args, get_type_hints
 
 import pytest
 
+from graphkin.account.arithmetic import _bars_of
 from graphkin.construction import draft
+from graphkin.construction.board.instruments import EXACT
+from graphkin.construction.board.sheet import Board
 from graphkin.construction.board.steps import (
     LENGTHS,
     SENTENCES,
     CompassArc,
     Curve,
     Direction,
+    Mark,
     OnPaper,
     Ray,
     Reason,
+    Size,
     Step,
     Term,
     TrialPositions,
+    Vector,
 )
 from graphkin.construction.tasks import TaskStep
 from graphkin.plane import Pose
 from graphkin.scene import library, mechanism_of
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import area, say
 
 pytestmark = pytest.mark.quick
@@ -179,3 +185,15 @@ def test_a_travel_places_the_links_of_its_pair_a_start_of_rolling_none(reason: R
 @pytest.mark.parametrize(("kind", "sentence"), [("v", "by rate seen"), ("a", "by rates seen")])
 def test_a_velocity_seen_from_a_held_link_is_given_by_one_rate_an_acceleration_by_two(kind: str, sentence: str) -> None:
     assert sentence == Step("image", "rates", symbol=Symbol(kind), held="2").sentence
+
+
+def test_a_vector_ends_in_a_point_of_its_own_polygon_only() -> None:
+    board = Board(EXACT)
+    board.do(Step("lay off", "relative", "velocity", (Vector(Symbol("v"), 0j, 2 + 1j),)))
+    mark = Mark(PointRef("B"), 2 + 1j)
+    assert [False, True] == [board.pricked("acceleration", mark), board.pricked("velocity", mark)]
+
+
+def test_the_lengths_by_which_rates_give_a_vector_are_measured() -> None:
+    part = Term(Symbol("v"), True, True, Size("rate", ("3",), ("C", "B")))
+    assert [("C", "B")] == [*_bars_of(Step("image", "rates", by_rates=(part,)), False)]
