@@ -28,9 +28,9 @@ from graphkin.construction.board.steps import (
     Ray,
     Size,
     Step,
+    Stroke,
     Term,
     Vector,
-    changed,
 )
 from graphkin.construction.polygons.vector_graph import VectorChain, node
 from graphkin.construction.position.links_on_paper import PlacedLinks, pushed_by_driver
@@ -182,15 +182,16 @@ class Polygons:
         return replace(self, **motion._asdict(), board=board, own_values=own_values, believed=set(), trial=0, held=held,
                        part_of=group, seen={})
 
-    def do(self, step: Step) -> None:
-        """Record a step.  Seen from a held link only vectors are shown: end points get their letters in the polygon of
-        the mechanism itself."""
+    def do(self, step: Step, *first: Stroke) -> None:
+        """Record a step, with further strokes before its own.  Seen from a held link only vectors are shown: end points
+        get their letters in the polygon of the mechanism itself."""
+        drawn = (*first, *step.strokes)
         if not self.held or step.diagram == "mechanism":
-            self.board.do(step)
+            self.board.do(step, strokes=drawn)
         elif step.symbol.kind:
             early = step.reason == "before its turn"
-            strokes = (s for s in step.strokes if early or isinstance(s, Ray) or (isinstance(s, Vector) and s.aid))
-            self.board.do(changed(step, strokes=tuple(strokes)))
+            strokes = (s for s in drawn if early or isinstance(s, Ray) or (isinstance(s, Vector) and s.aid))
+            self.board.do(step, strokes=tuple(strokes))
 
     def symbol(self, kind: str, end: PointRef, start: PointRef | None = None) -> Symbol:
         """The motion of a point, or a part of it, from the pole or from that of another point, by its letters.  Seen
@@ -282,7 +283,7 @@ class Polygons:
         of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
         if self.trial or self.held or of_special:
             vector = replace(vector, aid=True, trial=self.trial)
-        self.do(changed(step, strokes=(vector, *step.strokes)))
+        self.do(step, vector)
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
         """Name an end point, and draw the vector to it from the pole."""
@@ -359,13 +360,13 @@ class Polygons:
         at = self.own_values.found(symbol, 0j, at)
         self.ends[order][ref] = at
         if not self.held:
-            step = changed(image, ref=label, strokes=(Mark(label, at), *image.strokes))
+            step = replace(image, ref=label, strokes=(Mark(label, at), *image.strokes))
         elif image.reason in ("same place", "translation"):
             step = Step("join", "pole to end", order, symbol=symbol)
         else:
             begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in image.refs)
             corners = tuple(corner.point for corner in (*image.refs, label))
-            step = changed(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
+            step = replace(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def on(self, ref: PointRef, name: str) -> bool:
