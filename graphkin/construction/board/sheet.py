@@ -530,10 +530,10 @@ class Board:
 
     def do(self, step: Step, **changes: object) -> None:
         """Record a step with some arguments changed, and its number in the order."""
-        step = copy(step)
-        vars(step).update(changes, number=len(self.steps) + 1)  # `replace` would take three times as long
-        self.steps.append(step)
-        self.causes.append((self.instrument.acts, step))
+        recorded = object.__new__(type(step))  # as `changed` does: `replace` would take ten times as long
+        vars(recorded).update(vars(step), **changes, number=len(self.steps) + 1)
+        self.steps.append(recorded)
+        self.causes.append((self.instrument.acts, recorded))
 
     def read(self, between: Symbol | frozenset[str], mm: float) -> float:
         """The length of a vector, or the distance of two points of the mechanism (mm), read when it is first needed."""
