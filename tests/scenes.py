@@ -498,3 +498,14 @@ FIXED_PIN: dict[str, Any] = {  # a bar is pushed along a pin of the frame in its
     "driver": {"slide": "C/2", "travel": 60, "velocity": 20},
     "sketch": {"B": [20, 35]},
 }
+
+YOKE = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["B"]},
+        "3": {"points": ["D"], "on": ["2", "0.h"], "angle_on": [90, 0]},
+    },
+    "driver": {"slide": "3/2", "travel": 10, "velocity": 1},
+}
+"""A yoke that slides on the frame and is driven along a block on a crank."""

@@ -9,7 +9,7 @@ import pytest
 import graphkin
 from graphkin.errors import CallError
 from graphkin.papers.documents import problem
-from graphkin.papers.fresh_numbers import LEVELS, Spread, candidate, level_of
+from graphkin.papers.fresh_numbers import LEVELS, Spread, candidate, level_of, varied_keys
 from graphkin.papers.variants import Unfit, asked_of, examined
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene import written
@@ -45,6 +45,15 @@ def test_nothing_else_varies_where_only_the_ranges_do():
     source = _source(only=True)
     made = candidate(source, Spread(), 1, 3, 0)
     assert source["links"]["3"] == made["links"]["3"]
+
+
+def test_a_rack_the_end_of_a_turn_and_the_moment_of_a_law_in_pieces_do_not_vary():
+    law = [{"to": 90, "rise": 20}, {"to": 360, "fall": 20}]
+    assert () == varied_keys({"gears": {"g": {"teeth": [20, "rack"]}}})
+    assert () == varied_keys({"driver": {"time": 0.5, "law": {"pieces": law}}})
+    assert ((("cams", "1", "law", 0, "to"), "end"), (("cams", "1", "law", 0, "rise"), "length")) == varied_keys(
+        {"cams": {"1": {"law": law}}})
+    assert ((("driver", 1, "angle"), "angle"),) == varied_keys({"driver": [{"omega": 0}, {"angle": 0}]})
 
 
 def test_a_pivot_that_two_distances_place_stays_while_the_lengths_vary():

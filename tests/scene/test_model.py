@@ -11,7 +11,7 @@ from graphkin.scene.model import Driver, Loading, LoadOn, Mechanism, SpringOn, f
 from graphkin.scene.scene_tables import LoadPhase
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure
-from tests.scenes import FOUR_BAR
+from tests.scenes import FOUR_BAR, YOKE
 
 CRANK = Driver("1", "4", 0.5, 10.0, 0.0)
 CYLINDER = Driver("2", "3", 0.42, 0.06, 0.0, "2/3")
@@ -141,3 +141,11 @@ def test_a_pair_has_the_guide_of_its_link_also_where_other_numbers_replace_it() 
 
 def test_values_of_the_drivers_are_by_their_keys_in_the_order_of_the_file() -> None:
     assert {"2": 0.5, "7/6": 0.25} == mechanism_of("loader-cylinder").by_driver(np.array([0.5, 0.25]))
+
+
+def test_a_link_has_its_pivots_and_its_sliding_pair_on_the_frame() -> None:
+    scene = mechanism_of(YOKE)
+    assert scene.pivots("1") == ["A"]
+    assert scene.pivots("2") == []
+    assert scene.sliding("3/0") == scene.rail("3")
+    assert scene.rail("2") is None
