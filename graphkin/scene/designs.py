@@ -11,7 +11,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, get_args
 
 from pydantic import AfterValidator
 from pydantic import Field as Rule
@@ -120,10 +120,7 @@ class FunctionTask(FileTable):
 
 
 DesignTask = SliderCrankTask | CrankRockerTask | GuideBarTask | LimitsTask | BarPositionsTask | FunctionTask
-KINDS: dict[str, type[DesignTask]] = {
-    kind.kind: kind
-    for kind in (SliderCrankTask, CrankRockerTask, GuideBarTask, LimitsTask, BarPositionsTask, FunctionTask)
-}
+KINDS: dict[str, type[DesignTask]] = {kind.kind: kind for kind in get_args(DesignTask)}
 
 
 @file_table_by_name
