@@ -59,6 +59,29 @@ def test_a_force_between_two_groups_has_the_scale_of_the_polygon_that_gave_it() 
     assert first == between < last == of_frame
 
 
+GUIDE_DRIVEN_FROM_ITS_BLOCK = {
+    "frame": {"points": {"A": [0, 0]}},
+    "links": {
+        "1": {"points": ["A"], "on": "2.g"},
+        "2": {"points": ["E", "F"], "length": 60, "guides": {"g": {"through": [10, -10], "angle": 20}}},
+    },
+    "driver": [{"link": "1", "angle": 40, "omega": 2}, {"slide": "1/2", "travel": 30, "velocity": 50}],
+    "loads": {"P": {"on": "2", "at": "F", "force": 20, "angle": 70},
+              "Q": {"on": "1", "at": [30, 9], "force": 1e7, "angle": 80}},
+}
+
+
+def test_a_balance_found_on_the_guide_of_a_block_is_read_at_the_scale_of_the_guide() -> None:
+    checked = graphkin.check(GUIDE_DRIVEN_FROM_ITS_BLOCK)
+    (state,) = checked.sheet.forces
+    of_guide, of_block = state.groups
+    push = Symbol("F", link="1")
+    on_paper = {row["symbol"]: row["on_paper_mm"] for row in checked.data["readings"]}
+    assert (("2",), ("1",)) == (of_guide.links, of_block.links)
+    assert of_guide.per_mm == state.per_mm[push] < of_block.per_mm
+    assert of_guide.read[push] == pytest.approx(on_paper["F_1"])
+
+
 def test_where_a_load_ends_groups_that_it_does_not_change_keep_the_numbers_of_their_steps() -> None:
     scene = graphkin.read("shaper-forces").to_dict()
     begins = {"driver": [scene["driver"]["angle"], 300]}

@@ -140,7 +140,7 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
         else:
             groups.append(of_larger_group(cut, element))
     loads = (load for load in known if not load.turned)
-    found = [*loads, *_of_joints(cut), *(changed(balance, off="") for balance in cut.balances)]
+    found = [*loads, *_of_joints(cut), *cut.balances]
     forces = [load for load in found if load.symbol.is_vector]
     vectors = {load.symbol: load.force for load in forces}
     moments = {load.symbol: load.moment for load in found if not load.symbol.is_vector}
