@@ -84,9 +84,7 @@ def steady(scene: Mechanism) -> Mechanism:
     return replace(scene, drivers=tuple(d.at_rate(1.0) for d in scene.drivers))
 
 
-def played(
-    scene: Mechanism, values: Mapping[str, float], frames: int = FRAMES
-) -> tuple[Motion, dict[str, NDArray[np.float64]]]:
+def played(scene: Mechanism, values: Mapping[str, float]) -> tuple[Motion, dict[str, NDArray[np.float64]]]:
     """The motion over the whole range of the first driver, from these values (rad, m) on: a turn, or there and back,
     slower towards the ends, so that the last frame is the first again; and the angle of each link from its first (rad).
 
@@ -96,11 +94,11 @@ def played(
     """
     reach = driver_range(structure_of(steady(scene)), values)
     low, high = reach.ends
-    offsets = np.linspace(0.0, high, frames + 1)
+    offsets = np.linspace(0.0, high, FRAMES + 1)
     if not reach.full:
         low, high = low + ENDS * (high - low), high - ENDS * (high - low)
         begin = np.arccos(np.clip(1.0 + 2.0 * low / (high - low), -1.0, 1.0))
-        offsets = low + (high - low) * (1 - np.cos(begin + np.linspace(0.0, 2 * np.pi, frames + 1))) / 2
+        offsets = low + (high - low) * (1 - np.cos(begin + np.linspace(0.0, 2 * np.pi, FRAMES + 1))) / 2
     motion = reach.motion(offsets, extended=False)
     names = [link.name for link in motion.scene.links]
     if not motion.ok[0]:

@@ -381,8 +381,7 @@ def of_dyad(cut: CutFree, dyad: Dyad) -> ForceGroup:
     (first, head), (second, tail) = _outer_parts(cut, dyad, at_first, at_second)
     chain: Chain = []
     cut.lay(chain, *first)
-    cut.lay_known(chain, dyad.first.links)
-    cut.lay_known(chain, dyad.second.links)
+    cut.lay_known(chain, (*dyad.first.links, *dyad.second.links))
     cut.lay(chain, *second)
     cut.close(chain, tail, head)
     cut.lettered(chain)

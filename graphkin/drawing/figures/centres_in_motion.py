@@ -140,7 +140,7 @@ FIXED, MOVING, COUPLER = Stroke(0.5), Stroke(0.5, (3.0, 1.2)), Stroke(0.25, (0.8
 
 def centrodes_figure(
     page: FigurePage, centres: Centres, link: str, fixed: Sequence[Branch], moving: Sequence[Branch],
-    curve: Sequence[Branch] = (), point: str = "",
+    curve: Sequence[Branch], point: str,
 ) -> Drawing:
     """Draw the centrodes of a link about the mechanism, cut where they leave its surroundings.
 
