@@ -13,11 +13,18 @@ from graphkin.account.voice import Account
 from graphkin.construction import draft, pencil
 from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.forces import ForceGroup, with_forces
+from graphkin.construction.forces.position import DrawnPosition
 from graphkin.construction.forces.steps import ForceStep, MomentStep
+from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
-from tests.construction.test_forces import BLOCK_ON_A_COMPOUND_HINGE, CHAIN, DRIVEN_AGAINST_A_BLOCK
+from tests.construction.test_forces import (
+    BLOCK_ON_A_COMPOUND_HINGE,
+    CHAIN,
+    DRIVEN_AGAINST_A_BLOCK,
+    ROD_TO_A_CROSSING_OF_CIRCLES,
+)
 from tests.mechanisms import random_scene
 from tests.scenes import four_bar, slider_crank
 from tests.solver.test_forces import loaded
@@ -80,6 +87,20 @@ def test_a_balance_found_on_the_guide_of_a_block_is_read_at_the_scale_of_the_gui
     assert (("2",), ("1",)) == (of_guide.links, of_block.links)
     assert of_guide.per_mm == state.per_mm[push] < of_block.per_mm
     assert of_guide.read[push] == pytest.approx(on_paper["F_1"])
+
+
+def test_in_a_larger_group_the_host_of_a_guest_bears_its_force_on_a_pin_that_others_hold() -> None:
+    checked = graphkin.check({**ROD_TO_A_CROSSING_OF_CIRCLES, "balance": {"on": "7"}})
+    (state,) = checked.sheet.forces
+    assert (True, "drawn system") == (checked.ok, state.groups[-1].way)
+
+
+def test_in_a_larger_group_the_force_of_a_guide_stands_where_it_turns_as_its_couple_does() -> None:
+    sheet = drawn(loaded(graphkin.read("triad-slider").to_dict(), 1))
+    (state,), force = sheet.forces, Symbol("F", link="1", other="6")
+    shift = state.groups[0].lines[force] - DrawnPosition(sheet).foot(sheet.structure.slide("6/1"))
+    couple = cross(shift, state.vectors[force]) * sheet.scales.length
+    assert state.moments[Symbol("M", link="1", other="6")] == pytest.approx(couple, rel=1e-9)
 
 
 def test_where_a_load_ends_groups_that_it_does_not_change_keep_the_numbers_of_their_steps() -> None:
