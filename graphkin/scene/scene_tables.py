@@ -495,7 +495,7 @@ class Background(FileTable):
     """A photograph or scan to lie under the mechanism."""
 
     file: Text
-    points: dict[PointName, Place] = named(needed=True)
+    points: dict[PointName, Place] = key(closed=True)
 
 
 @file_table
@@ -562,7 +562,7 @@ class SceneTables(FileTable):
     find: Symbols | None = None
     units: Units = Units()
     frame: Frame = field(default_factory=Frame)
-    links: Annotated[dict[LinkName, Link], Rule(min_length=1)] = named(needed=True)
+    links: Annotated[dict[LinkName, Link], Rule(min_length=1)] = key(closed=True)
     pins: dict[PointName, Pin] = named()
     contacts: dict[PointName, Contact] = named()
     gears: dict[LinkName, Gear] = named()

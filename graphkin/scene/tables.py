@@ -109,7 +109,7 @@ class FileTable:
         return handler(rules) if rules["type"] == "dataclass" else {TABLE: cls.__name__}
 
 
-def key(*, default: Any = MISSING, name: str = "", unit: str = "") -> Any:
+def key(*, default: Any = MISSING, name: str = "", unit: str = "", closed: bool = False) -> Any:
     """A key of a table with more rules than its type and its default.
 
     Parameters
@@ -117,20 +117,19 @@ def key(*, default: Any = MISSING, name: str = "", unit: str = "") -> Any:
     default : the value of a key that is left out
     name : the key in the file, where Python has that word for itself
     unit : the measure of its numbers, in whose unit the file has them; "" for numbers without one or left as written
+    closed : of a table of entries by their names: no key may stand there that is no name
     """
-    return dataclasses.field(default=default, metadata={"unit": unit} | ({"alias": name} if name else {}))
+    about: dict[str, object] = {"unit": unit}
+    if name:
+        about["alias"] = name
+    if closed:
+        about["json_schema_extra"] = {"additionalProperties": False}
+    return dataclasses.field(default=default, metadata=about)
 
 
-def named(unit: str = "", needed: bool = False) -> Any:
-    """A key whose value is a table of entries by their names: no key may stand there that is no name.
-
-    Parameters
-    ----------
-    unit : as for `key`
-    needed : whether it may not be left out
-    """
-    about = {"unit": unit, "json_schema_extra": {"additionalProperties": False}}
-    return dataclasses.field(metadata=about) if needed else dataclasses.field(default_factory=dict, metadata=about)
+def named(unit: str = "") -> Any:
+    """A closed key that may be left out: there are no such entries then."""
+    return dataclasses.field(default_factory=dict, metadata=key(unit=unit, closed=True).metadata)
 
 
 def derived() -> Any:
