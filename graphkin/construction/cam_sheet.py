@@ -18,7 +18,7 @@ from graphkin.construction.board.sheet import Sheet
 from graphkin.construction.board.steps import NO_POINT, Bar, CompassArc, Curve, Mark, Ray
 from graphkin.construction.tasks import TaskBoard, TaskStep
 from graphkin.construction.touching import CamStation, station, stations
-from graphkin.plane import added_up, cross_arcs, cross_line_arc, dot, unit
+from graphkin.plane import cross_arcs, cross_line_arc, dot, unit
 from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower, less_unless_touching
 
 STEP = math.radians(15.0)
@@ -146,9 +146,10 @@ def _on_arc(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instru
     crossed = cross_arcs(0j, base, pivot, arm)
     if crossed is None:
         return None
-    sides = abs(pivot), arm, base
-    touching = any(not less_unless_touching(added_up(sides) / 2, side) for side in sides)
-    start = hand.point(added_up(crossed, 0j) / 2 if touching else min(crossed, key=lambda z: abs(z - given.base)))
+    half = (abs(pivot) + arm + base) / 2  # of the perimeter of the triangle: as long as a side where both arcs touch
+    touching = not all(less_unless_touching(half, side) for side in (abs(pivot), arm, base))
+    nearest = min(crossed, key=lambda z: abs(z - given.base))
+    start = hand.point((crossed[0] + crossed[1]) / 2 if touching else nearest)
     turned = unit((given.point - given.line) / (given.base - given.line))
     bar = hand.angle(unit(start - pivot) * turned)
     point = hand.point(pivot + arm * bar)

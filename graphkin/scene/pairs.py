@@ -56,10 +56,11 @@ NO_GUIDE = PlacedGuide("", 0j, 0j)
 OWN_AXIS = {"": PlacedGuide("")}
 """The one guide of a link that has no other: its own x axis."""
 TOUCHING = 1e-13
+"""Of a length: another that differs by less differs by rounding alone."""
 
 
 def less_unless_touching(length: float, other: float) -> float:
-    """A length less another; 0 where a circle only touches a line or an arc: they differ by rounding alone."""
+    """A length less another; 0 where they differ by rounding alone: a circle only touches the line or the arc."""
     return length - other if abs(length - other) > TOUCHING * length else 0.0
 
 

@@ -596,23 +596,27 @@ def of_larger_group(cut: CutFree, group: LargerGroup) -> ForceGroup:
     found = iter(_solved(cut, group.members, [*unknowns, *balances]))
     forces = list[ForceVector]()
     for point, pin in pins:
-        forces.append(changed(pin, force=next(found).force + next(found).force))
-        cut.pins[point, pin.link] += forces[-1].force
+        both = next(found).force + next(found).force
+        forces.append(changed(pin, force=both))
+        cut.pins[point, pin.link] += both
         if pin.off:
-            cut.pins[point, pin.off] -= forces[-1].force
+            cut.pins[point, pin.off] -= both
     for slide in slides:
-        force, couple = next(found), next(found)
-        cut.set_slide(slide, force, couple, inside)
-        cut.shift(force, couple.moment)
-        forces.append(force)
+        of_slide, couple = next(found), next(found)
+        forces.append(of_slide)
+        cut.set_slide(slide, of_slide, couple, inside)
+        cut.shift(of_slide, couple.moment)
     for balance, acting in zip(balances, found, strict=True):
         cut.set_balance(balance, acting, inside)
-        forces += [acting] if acting.symbol.is_vector else []
+        if acting.symbol.is_vector:
+            forces.append(acting)
     polygons: dict[str, Chain] = {name: [] for name in group.members}
     for name, chain in polygons.items():
         cut.lay_known(chain, (name,))
-    for acting in (acting for force in forces for acting in (force, force.back) if acting.link in polygons):
-        cut.lay(polygons[acting.link], changed(acting, by="closing"))
+    for load in forces:
+        for acting in (load, load.back):
+            if acting.link in polygons:
+                cut.lay(polygons[acting.link], changed(acting, by="closing"))
     for name, chain in polygons.items():
         if name not in drawn.structure.blocks:
             cut.inside((name,), chain)

@@ -303,9 +303,10 @@ def from_outside(
     made: list[ForceVector] = []
     for mass in loading.masses:
         link, read = mass.link, inertias[mass.link]
-        forces = {"Fi": read.force, "G": mass.mass * loading.gravity}
-        made += (ForceVector(Symbol(kind, link=link), link=link, force=force, at=read.centre)
-                 for kind, force in forces.items() if kind == "Fi" or loading.gravity)
+        made.append(ForceVector(Symbol("Fi", link=link), link=link, force=read.force, at=read.centre))
+        if loading.gravity:
+            weight = mass.mass * loading.gravity
+            made.append(ForceVector(Symbol("G", link=link), link=link, force=weight, at=read.centre))
         made.append(ForceVector(Symbol("Mi", link=link), link=link, moment=read.moment))
     for load in loading.loads:
         acting, acts = drawn.load(load, load.size), sheet.acting[load.name]
