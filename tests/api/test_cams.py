@@ -49,12 +49,14 @@ def test_the_cam_drawn_by_inversion_is_the_computed_one(seed):
     assert compare_cam(cam, cam_sheet(cam, 1e-3)).ok
 
 
-@pytest.mark.parametrize(("ground", "bar", "base"), [(106.7, 256.94, 150.24), (80, 120, 40)])
-def test_a_swinging_follower_may_begin_in_line_with_the_axis_of_its_cam(ground, bar, base):
+@pytest.mark.parametrize(("ground", "bar", "base", "begins"), [
+    (106.7, 256.94, 150.24, 0.0), (80, 120, 40, 0.0), (100, 52.3, 152.3, math.pi),
+])
+def test_a_swinging_follower_may_begin_in_line_with_the_axis_of_its_cam(ground, bar, base, begins):
     scene = graphkin.read("cam-swinging-roller").replace("cams.1.base", {"r": base, "of": "pitch"})
     scene = scene.replace("frame.points.C", [ground, 0]).replace("links.2.length", bar)
     (cam,) = mechanism_of(scene).cams
-    assert cam.beginning() == 0.0
+    assert cam.beginning() == begins
     assert compare_cam(cam, cam_sheet(cam, 1e-3)).ok
 
 

@@ -21,7 +21,7 @@ from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.touching import pitch_point
 from tests import with_tables
 from tests.command import run
-from tests.mechanisms import KINDS, random_scene
+from tests.mechanisms import KINDS, random_scene, redriven
 
 VALIDATION = Path(__file__).parent.parent / "validation"
 CASES = json.loads((VALIDATION / "truth_forces.json").read_text())["cases"]
@@ -227,6 +227,12 @@ def test_what_a_load_forgotten_leaves_of_the_powers_is_seen(name):
     assert 0 == pytest.approx(left[0], abs=1e-12 * greatest[0])
     wrong = replace(solved.forces, acting=solved.forces.acting[:-1])
     assert abs(wrong.power[0][0]) > 1e-4 * greatest[0]
+
+
+@pytest.mark.parametrize("seed", [12, 102])
+def test_a_driver_between_two_moving_links_has_the_power_of_its_moment_or_force_on_both(seed):
+    left, greatest = graphkin.solve(loaded(redriven(seed), seed)).forces.power
+    assert 0 == pytest.approx(left[0], abs=1e-12 * greatest[0])
 
 
 @pytest.mark.parametrize("at", [167.3708882, 12.2936947])
