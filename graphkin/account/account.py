@@ -13,13 +13,7 @@ from graphkin.account.in_polygon import InPolygon, alike
 from graphkin.account.notation import Notation
 from graphkin.account.voice import Account, Telling
 from graphkin.construction.board.sheet import Equation, Sheet
-from graphkin.construction.board.steps import (
-    PointNames,
-    Reason,
-    Step,
-    Term,
-    Vector,
-)
+from graphkin.construction.board.steps import PointNames, Reason, Step, Term, Vector
 from graphkin.scene.pairs import Pair
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, sense_of, word
@@ -177,9 +171,7 @@ def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
         s for s in sheet.steps
         if s.diagram == equation.diagram and s.equation != equation.number and s.reason != "polygon"
     )
-    return next(
-        (s.number for s in earlier for v in s.each(Vector) if v.symbol == term.symbol), 0
-    )
+    return next((s.number for s in earlier for v in s.each(Vector) if v.symbol == term.symbol), 0)
 
 
 def _rests(sheet: Sheet, ref: PointRef) -> bool:

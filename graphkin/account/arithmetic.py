@@ -15,11 +15,7 @@ from graphkin.account.headings import number
 from graphkin.account.notation import Notation, unit_of
 from graphkin.construction.board.instruments import EXACT
 from graphkin.construction.board.sheet import Sheet, either_way
-from graphkin.construction.board.steps import (
-    DiagramName,
-    Size,
-    Step,
-)
+from graphkin.construction.board.steps import DiagramName, Size, Step
 from graphkin.construction.position.links_on_paper import pushed_by_driver
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol

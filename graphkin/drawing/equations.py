@@ -162,8 +162,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Notation) -> RichText | No
         parts.append(letters.size(only.size))
     found = bound(rule_sum(sheet, only.size, equation.diagram))  # the product of what is written
     if not found:
-        laid_off = (s.mm for s in sheet.steps
-                    if s.verb == "lay off" and s.symbol == only.symbol)
+        laid_off = (s.mm for s in sheet.steps if s.verb == "lay off" and s.symbol == only.symbol)
         # what is given is not what a hand has made of it
         value = next(laid_off, abs(vector.span)) * scale_of(sheet, equation.diagram)
         found = bound(f"{number(value, MOST)} {unit_of(sheet, equation.diagram).written}")

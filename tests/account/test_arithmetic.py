@@ -181,8 +181,7 @@ def test_with_a_pencil_given_lengths_stay_given_in_every_sum(name):
     }
     arms = [(step.points, rate_sum(sheet, step, units=False).split(" = ")[0].split(" / ")[-1])
             for step in sheet.steps if step.reason == "rate" and not step.held]
-    sizes = [step.size for step in sheet.steps
-             if step.size and step.size.rule == "rate"]
+    sizes = [step.size for step in sheet.steps if step.size and step.size.rule == "rate"]
     arms += [(size.factor, factors_of(sheet, size)[-1]) for size in sizes if not isinstance(size.factor, Symbol)]
     told = [(given[frozenset(bar)], float(arm)) for bar, arm in arms if frozenset(bar) in given]
     assert len(told) >= 5
@@ -247,8 +246,7 @@ def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(n
     sheet = draft(mechanism_of(name), instrument=pencil(Tools(), 3))
     said = {step.link: rate_sum(sheet, step).rsplit(" = ", 1)[-1].split()[0] for step in sheet.steps
             if step.reason == "rate" and step.kind == "omega"}
-    sizes = [step.size for step in sheet.steps
-             if step.size and step.size.rule == "rate"]
+    sizes = [step.size for step in sheet.steps if step.size and step.size.rule == "rate"]
     used = [(said[sheet.rates["omega"][size.links[0]].same_as or size.links[0]], factors_of(sheet, size)[size.twice])
             for size in sizes if size.rate == "omega" and sheet.rates["omega"][size.links[0]].vector]
     assert used

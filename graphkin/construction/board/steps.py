@@ -289,7 +289,7 @@ class Step(OnPaper):
     held : the link held still, from which it is seen; "" for the frame
     plan : the velocity plan of wheels that it helps to draw, by its number from 1; 0 on a diagram
     point, points : the point that it finds, and those from which it is found, or over which it measures; or the points
-        that it marks
+        that it marks; of a vector seen from a held link its points, with that which it finds; or the places on a plan
     links : links that meet there, or that are seen; or the link of known rate and the base of the other rate
     base : the reference link; "" for the x axis, or the frame
     pairs : sliding pairs, by key

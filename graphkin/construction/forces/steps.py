@@ -110,7 +110,6 @@ class ForceStep(Step):
     length : of a spring as it was read (m)
     """
 
-    links: tuple[str, ...] = ()
     acting: tuple[ForceVector, ...] = ()
     finds: tuple[Symbol, ...] = ()
     part: Part = ""

@@ -387,8 +387,7 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
             for kind, tail, value in (("omega", "", driver.rate), ("alpha", "-alpha", driver.second)):
                 if value:
                     arc("mechanism", f"driver-{link}{tail}", kind, link, driver.relative_to, value, here.since(link))
-    drawn = [step for step in here.sheet.steps
-             if step.finds_rate or step.reason == "given on plan"]
+    drawn = [step for step in here.sheet.steps if step.finds_rate or step.reason == "given on plan"]
     found = {(step.kind, step.link): step.number for step in drawn}
     named = here.scene.whole.by_name  # not of bars that stand for cams
     for kind, rates in here.sheet.rates.items():
@@ -456,13 +455,10 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
     of a tangent the line to its pivot."""
     under: list[Primitive] = [
         Group((Line.between(s.a, s.b, strokes.CONSTRUCTION),), classes=("tangent",), step=step.number)
-        for step in here.steps if step.reason == "tangent"
-        for s in step.each(Bar)
+        for step in here.steps if step.reason == "tangent" for s in step.each(Bar)
     ]
     over: list[Primitive] = []
-    arcs = [
-        (step, arc) for step in here.steps for arc in step.each(CompassArc) if arc.radius > 1e-9
-    ]
+    arcs = [(step, arc) for step in here.steps for arc in step.each(CompassArc) if arc.radius > 1e-9]
     bars: dict[complex, set[complex]] = {}
     for _, arc in arcs:
         bars.setdefault(same_place(arc.at), set()).add(unit(arc.centre - arc.at))
@@ -493,8 +489,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
     for step in sheet.of("mechanism"):
         if step.reason == "special point":
             lines = tuple(
-                Line.between(s.a, s.b, strokes.DIRECTION)
-                for s in step.each(Bar) if abs(s.b - s.a) > SAME
+                Line.between(s.a, s.b, strokes.DIRECTION) for s in step.each(Bar) if abs(s.b - s.a) > SAME
             )
             over.append(Group(lines, id=f"special-{step.point}", classes=("special",), step=step.number))
         for curve in step.each(Curve):
