@@ -1,4 +1,5 @@
-"""The account of a construction, in any school and language: each step's sentence, sums, lines, each equation's reason.
+"""The account of a construction, in any school and language: sentence, sums and lines of each step, and the reason of
+each equation.
 
 A step is told by its reason, in the tables of `InMechanism` and `InPolygon`.
 """
@@ -94,7 +95,7 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichT
 
 
 def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[RichText]:
-    """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum, told in a line."""
+    """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum: that has a line."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
     rates = sheet.rates[kind]
     told = {step.link for step in sheet.steps if step.reason == "sum of rates"}

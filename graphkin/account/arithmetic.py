@@ -59,7 +59,8 @@ def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int) -> str
 
 
 def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
-    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper; of an exact drawing its finer value."""
+    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper, and in brackets the
+    value of an exact drawing, beyond the hundredth of a millimetre."""
     unit, per = unit_of(sheet, diagram).written, scale_of(sheet, diagram)
     length = on_paper(mm)
     value, finer = product(length, amount(per, 12)), amount(mm * per, MOST)

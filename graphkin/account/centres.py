@@ -76,7 +76,8 @@ def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
         error = centres.velocity_error(Symbol("omega", link=turning.link))
         nothing = abs(turning.omega) <= max(STILL * largest, min(error, SURE * largest))  # but rounding
         driver = None if nothing or len(turning.chain) > 1 else _between_moving(centres, turning)
-        chain, told = driver.links if driver else turning.chain, None
+        chain = driver.links if driver else turning.chain  # from the driven link, through their common centre
+        told = None
         if driver and turning.link == driver.link:
             told = _of_driver(centres, turning, driver)
         elif len(chain) > 1:
@@ -149,7 +150,8 @@ def _of_driver(centres: Centres, turning: Turning, driver: Driver) -> tuple[_Rat
         return None if its.point is None else _of_link(turning, both, relative, (new, its, common))
     assert new.point is not None
     assert common.point is not None
-    near, sign = _apart(new.point, common.point), "-" * (turning.omega < 0.0)
+    near = _apart(new.point, common.point)
+    sign = "-" * (turning.omega < 0.0)
     per_mm, speed = amount(centres.sheet.scales.length / units.metres), amount(abs(driver.values[1]) / units.metres)
     rate = _Rate(sign + written.quotient(speed, written.product(near, per_mm), MOST), written.figures(near))
     return rate, Phrase("centre from cylinder", link=turning.link, known=both, centre=new.pair, common=common.pair,
@@ -160,9 +162,10 @@ def _of_driver(centres: Centres, turning: Turning, driver: Driver) -> tuple[_Rat
 def _of_link(
     turning: Turning, before: str, known: _Rate, three: tuple[Centre, Centre, Centre], nothing: bool = False
 ) -> tuple[_Rate, Phrase]:
-    """The rate of a link, computed from the ``known`` rate of the link ``before`` it and the distances as they are
-    written (0 where it is rounding alone, ``nothing``), and its sentence."""
-    (new, its, common), sign = three, "-" * (turning.omega < 0.0)
+    """The rate of a link and its sentence, from the ``known`` rate of the link ``before`` it, ``three`` centres (see
+    `_three`) and their distances as they are written; ``nothing`` where the rate is rounding alone: 0."""
+    new, its, common = three
+    sign = "-" * (turning.omega < 0.0)
     gaps: dict[str, object] = {
         "link": turning.link, "known": before, "common": common.pair, "known_centre": its.pair, "centre": new.pair,
     }

@@ -72,7 +72,7 @@ def rolling_starts(sheet: Sheet) -> list[RichText]:
 
 
 def rolled_starts(sheet: Sheet) -> list[RichText]:
-    """The starts of links that only follow by rolling, as in `rolling_starts`; of a wheel with but its axis none."""
+    """The starts of links that only follow by rolling, as in `rolling_starts`; none of a wheel with only its axis."""
     scene = sheet.scene
     own = spaced(", ", (_stands(sheet, driver, driver.values[0]) for driver in scene.drivers))
     told = []

@@ -52,7 +52,7 @@ _OWN_POSITION = re.compile(
 
 
 def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
-    """The titles of the scene, one for each language that has one; at another position without words for its own."""
+    """The titles of the scene, one one a language; at another position without the words for its own."""
     scene = sheet.scene
     own = all(
         d.distance is not None or math.isclose(sheet.drivers[d.key], d.values[0], rel_tol=1e-9, abs_tol=1e-12)

@@ -1,4 +1,4 @@
-"""The notation of each school: poles, end points, component marks, directions, centres, scale statements, forces.
+"""The notation of each school: poles, end points, component marks, directions, instant centres, scales, forces.
 
 Chinese: Sun Huan,
 Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of Machines; russian:
@@ -130,7 +130,7 @@ class Notation:
         return sign("−") + vector if term.turned else vector
 
     def end(self, diagram: DiagramName, ref: PointRef) -> RichText:
-        """The end point of a vector from the pole: a small letter, primed for accelerations; us names the vector."""
+        """The end point of a vector from the pole: a small letter, primed for accelerations; "us" names the vector."""
         if self.convention == "us":
             return RichText()
         letter, index = self._indexed(ref)

@@ -311,7 +311,7 @@ def hand_of(wishes: SheetWishes, name: str, seed: int) -> Instrument:
 def columns_shown(
     scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None
 ) -> tuple[Symbol, ...]:
-    """The quantities of names, as columns over the driver's range.  Raises CallError for one of one position too."""
+    """The quantities of names, as columns over the driver's range.  Raises CallError if one is of a single position."""
     shown = asked_symbols(scene, find, drawn=False)
     if elsewhere := [quantity for quantity in shown if quantity.at]:
         raise CallError(*(Problem(f"find {symbol}", Phrase("is of one position no column", position=symbol.at),

@@ -89,7 +89,7 @@ class Drawn(OfScene, Result):
 
     @property
     def with_forces(self) -> Checked | None:
-        """The check with forces; None without masses and loads, and where they are not asked for nor to be found."""
+        """The check with forces; None without masses and loads, or where they are neither asked for nor found."""
         made = self._all_checked
         if isinstance(made, Unsolvable) and self.by_name:
             raise made

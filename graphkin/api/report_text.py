@@ -288,7 +288,7 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
 
 
 def _between(scene: Mechanism, stretch: Stretch, language: str) -> str:
-    """The driver's values at both ends of a stretch, dots where it has none; without ends, how far it is followed."""
+    """The driver's values at both ends of a stretch, dots where it has no end; without any, how far it is followed."""
     low, high = (scene.place_said(scene.drivers[0], value) for value in (stretch.low, stretch.high))
     if not any(stretch.ends):
         return say(Phrase("followed without an end", low=low, high=high), language)

@@ -1,4 +1,4 @@
-"""The questions of the page and their answers, message by message: values in, values out, no state between two.
+"""The questions of the page and their answers, message by message: values in, values out, no state kept.
 
 A message is a mapping with ``do``, one of `QUESTIONS`, and its arguments; the answer is a mapping for JSON.  The text
 of the scene comes with each question, so that nothing is lost when a server ends.

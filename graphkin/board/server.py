@@ -146,7 +146,7 @@ def application(shelf: Shelf, address: Address, language: str = "") -> Starlette
 
 
 def _answered(shelf: Shelf, text: str) -> str:
-    """The answer to the text of a message; what is no JSON gets a problem, no unforeseen error ends page or server."""
+    """The answer to the text of a message; a text that is no JSON gets a problem; no error ends page or server."""
     message: object = None
     with suppress(ValueError, RecursionError):
         message = json.loads(text)

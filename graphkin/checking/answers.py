@@ -40,7 +40,7 @@ Cell = Printed | tuple[str, Phrase] | None
 
 @dataclass(frozen=True)
 class Answers:
-    """The values that a person states, their driver value or named position (None: the scene's, the call's), how found.
+    """The values of a person, their driver value or named position (None: the scene's, or the call's), and how found.
 
     ``cells`` stand in the order of the columns; ``variant`` is the name of the person's problem ("" for the scene
     itself), ``id`` their number, ``marks`` the points that a teacher gave, by part.
@@ -184,7 +184,8 @@ def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence
 def _columns(
     scene: Mechanism, heads: Sequence[str], name: str, problems: list[Problem]
 ) -> tuple[dict[int, tuple[Symbol, str]], dict[int, Symbol], dict[Role, int]]:
-    """The columns of values with units, of directions and senses, by role; adds problems of heads to ``problems``."""
+    """The columns of values with their units, of directions and senses, and others by role; problems of the heads are
+    added to ``problems``."""
     spelling = spelling_of(scene)
     values: dict[int, tuple[Symbol, str]] = {}
     ways: dict[int, Symbol] = {}

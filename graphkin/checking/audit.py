@@ -172,7 +172,7 @@ def _copied(case: Evidence, own: Mapping[Symbol, Value], symbol: Symbol, others:
 def _following(
     case: Evidence, judged: Judged, own: Mapping[Symbol, Value], others: Sequence[Symbol], chance: float
 ) -> Iterator[tuple[Suspect, float]]:
-    """The explanations of a value by earlier wrong values, drawn on from: each moves it by more than drafting does."""
+    """The explanations of a value by earlier wrong values, drawn on from each that moves it more than drafting does."""
     symbol = judged.printed.symbol
     earlier = [s for s in others if case.before(s, symbol)]
 

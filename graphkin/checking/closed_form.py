@@ -80,7 +80,8 @@ def compare_lengths(
 
 @dataclass(frozen=True)
 class CamPoints:
-    """The differences of drawn and computed points of a cam (m), pressure angles (rad), lifts read (m, or rad)."""
+    """The differences between drawn and computed points of a cam (m), its pressure angles (rad), and its lifts as read
+    (m, of a swinging follower rad)."""
 
     pitch: float
     profile: float

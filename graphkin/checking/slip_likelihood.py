@@ -268,7 +268,7 @@ Kind = tuple[float, int, list[str]]
 def _kinds(
     text: str, places: Sequence[int], digits: NDArray[np.int_], worth: NDArray[np.float64], goal: float, room: float
 ) -> Iterator[Kind]:
-    """Each kind of error: its share, the count of its possible numbers, and those about ``goal`` away from the text.
+    """Each kind of error: its share, how many numbers it could come from, and those about ``goal`` off the text.
 
     Parameters
     ----------

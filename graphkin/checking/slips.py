@@ -355,7 +355,7 @@ def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
 
 
 def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
-    """A component of an acceleration in place of the whole: drawn, or about a fixed pivot if an image gave it."""
+    """A component of an acceleration in place of the whole: drawn, or about a pivot if an image gave the point."""
     if symbol.kind != "a" or symbol.of is None:
         return
     parts = [other for other in case.others if other.of == symbol.of]

@@ -44,7 +44,8 @@ class Unwritable(OSError):
 
 
 class _Pipe(io.FileIO):
-    """An output file of the system.  Without a reader output is dropped: a command goes on, also under ``| head``."""
+    """An output file of the system.  Output without a reader is dropped, so that a command does its work, and ends with
+    its status, also under ``| head``."""
 
     def write(self, text: Buffer) -> int:
         try:

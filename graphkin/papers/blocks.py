@@ -46,7 +46,8 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """Sentences; ``small`` for remarks; ``fills`` leaves the rest of the page to write in, omitted if it is little."""
+    """Sentences; ``small`` for remarks; ``fills`` leaves the rest of the page below them free to write in, and omits
+    them where little of it is left."""
 
     words: Said
     small: bool = False
@@ -202,7 +203,8 @@ def numbered(count: int, caption: Said) -> Said:
 
 def sentences(*several: Said) -> Said:
     """Sentences in order, by language."""
-    return tuple(
-        (first[0], spaced(word("between sentences", first[0]), (text for _, text in (first, *others))))
-        for first, *others in zip(*several, strict=True)
-    )
+    by_language: list[tuple[str, Words]] = []
+    for parts in zip(*several, strict=True):
+        language = parts[0][0]
+        by_language.append((language, spaced(word("between sentences", language), (text for _, text in parts))))
+    return tuple(by_language)

@@ -156,7 +156,8 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     """
     table = table_of(students)
     heads = [head.strip().lower() for head in table.heads]
-    columns = {role: min(map(heads.index, {*names} & {*heads})) for role, names in HEADS.items() if {*names} & {*heads}}
+    named = {role: [i for i, head in enumerate(heads) if head in names] for role, names in HEADS.items()}
+    columns = {role: indexes[0] for role, indexes in named.items() if indexes}
     if "name" not in columns and "id" not in columns:
         raise CallError.of(str(students), "no column of names", "write a head name or id",
                            names=some_of(table.heads))
@@ -170,7 +171,7 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     if schemes and "" in course and not may_be_groups:
         raise CallError.of(f"{students}, {head}", "schemes without their data", "give a row for each rows file.csv",
                            schemes=some_of(schemes))
-    listed, problems = [who for _, who in read], list[Problem]()
+    problems = list[Problem]()
     for line, who in read:
         where = Phrase("line of students and line", students=students, line=line)
         own = [scheme_for(who, course)] if who.scheme or len(course) == 1 else [*course.values()]
@@ -187,10 +188,10 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     if not any(free.values()):
         raise CallError.of("positions", "none of them can be drawn", "give others in positions")
     taken: dict[str, list[str]] = {name: [] for name in course}
-    for who in listed:
+    for _, who in read:
         if who.place and (who.scheme or len(course) == 1):
             taken[scheme_for(who, course).name].append(who.place)
-    for who in listed:
+    for _, who in read:
         if not who.scheme and len(course) > 1:
             # the first scheme with a position left, and when all are dealt out from the start again
             rounds = {n: len(taken[n]) // max(1, len(free[n])) for n in free}

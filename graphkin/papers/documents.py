@@ -535,7 +535,8 @@ def _plan_blocks(
 
 
 def force_stages_of(lesson: Lesson) -> Iterator[tuple[ForceStage, Said, tuple[StepItem, ...]]]:
-    """The stages of the forces, each with its load, which tells it from those without (none for one), and its steps."""
+    """The stages of the forces, each with the words that tell the drawing with the load from that without it (none
+    where there is but one drawing), and its steps."""
     sheet, language = lesson.sheet, lesson.language
     for stage in force_stages(lesson.account):
         several = len(sheet.forces) > 1 and bool(stage.group.links)

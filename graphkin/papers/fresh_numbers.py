@@ -100,16 +100,26 @@ def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:
     Zeros stay zero, and so do accelerations and the directions of guides.  Falls of cams follow the rises, lengths of
     carriers their wheels.
     """
-    return tuple((path, kind) for where, numbers in _VARIED for table in _matching(source, where)
-                 for key, kind in numbers.items()
-                 for path in _matching(value_at(source, table), key, table) if _is_free(source, path, kind))
+    return tuple(
+        (path, kind)
+        for where, numbers in _VARIED
+        for table in _matching(source, where)
+        for key, kind in numbers.items()
+        for path in _matching(value_at(source, table), key, table)
+        if _is_free(source, path, kind)
+    )
 
 
 def _matching(place: Any, pattern: str, path: KeyPath = ()) -> Iterator[KeyPath]:
     """The paths of a pattern of keys with dots in a part of a file, which lies at ``path``; * stands for every key of a
     table, or every item of a list."""
     step, _, rest = pattern.partition(".")
-    for key in place if isinstance(place, Mapping) else range(len(place)) if isinstance(place, list) else ():
+    keys: Iterable[str | int] = ()
+    if isinstance(place, Mapping):
+        keys = place
+    elif isinstance(place, list | tuple):
+        keys = range(len(place))
+    for key in keys:
         if step in ("*", str(key)):
             yield from _matching(place[key], rest, (*path, key)) if rest else ((*path, key),)
 
@@ -348,7 +358,7 @@ def _vary(source: Tables) -> Tables:
 
 
 def _path_of_number(source: Tables, key: str) -> KeyPath | None:
-    """The place of a number by its key: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``; None if none."""
+    """The place of a number by its key: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``; else None."""
     path = path_of_key(source, key)
     value = None if path is None else value_at(source, path)
     return None if isinstance(value, bool) or not isinstance(value, int | float) else path

@@ -220,11 +220,10 @@ def positions(
 ) -> tuple[list[dict[str, float]], int]:
     """Driver values (rad, m) spread over a turn or over the range of the motion, and the index of the given one."""
     motion = solver.solve(of, at=values, sweep=count)
-    drivers = motion.scene.drivers
-    keys = [d.key for d in drivers]
-    stands = {d.key: d.values[0] for d in drivers} | dict(values or {})
-    rows = [dict(zip(keys, map(float, motion.values[i]), strict=True)) for i in rows_in_order(motion.ok)]
-    first = keys[0]
+    scene = motion.scene
+    stands = scene.by_driver(driver.value for driver in scene.drivers) | dict(values or {})
+    rows = [scene.by_driver(motion.values[i]) for i in rows_in_order(motion.ok)]
+    first = scene.drivers[0].key
     at = next((i for i, row in enumerate(rows) if np.isclose(row[first], stands[first], rtol=0, atol=1e-9)), None)
     if at is None:
         at = sum(row[first] < stands[first] for row in rows)

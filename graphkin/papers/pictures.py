@@ -129,7 +129,7 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
 
 
 def equation_picture(lesson: Lesson, equation: Equation) -> Drawing:
-    """A vector equation over its rows of sizes and directions; as ``v_B3 = v_B2 + v_B3B2`` for who does not see it."""
+    """A vector equation over its rows of sizes and directions; ``v_B3 = v_B2 + v_B3B2`` for who cannot see it."""
     sheet, letters = lesson.sheet, lesson.letters
     sides = (" + ".join(str(letters.vector(t.symbol)) for t in side) for side in equation.sides)
     width = lesson.paper.body.width - 4.0
@@ -174,7 +174,7 @@ def workspace(lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], pa
 def draw_frame(
     lesson: Lesson, diagram: DiagramName, height: float | None = None, width: float | None = None
 ) -> Drawing:
-    """A frame for drawing a polygon, its pole where it will have room, and its scale; for forces without a pole."""
+    """A frame for drawing a polygon, with the pole where the polygon has room, and its scale; no pole for forces."""
     page, language = lesson.paper.body, lesson.language
     title, wide, marks = term(FIGURE_WORDS[diagram], language), width or page.width, list[Primitive]()
     tall = height or page.height - 40.0

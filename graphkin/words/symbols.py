@@ -181,7 +181,8 @@ def _plain(part: Atom, index: str) -> str:
 
 
 def notation(atoms: Iterable[Atom], letters: Mapping[str, str]) -> str:
-    """Atoms as tables and LaTeX write them, vectors with ``\\mathbf``, ``\\vec``; some ``letters`` otherwise."""
+    """Atoms as tables and LaTeX write them, with ``\\mathbf`` and ``\\vec`` for the marks of vectors; ``letters`` are
+    those that are written otherwise."""
     written = ""
     for atom in atoms:
         letter = letters.get(atom.text, atom.text)

@@ -195,7 +195,7 @@ def papers_of(
     scene: SceneLike, formats: Sequence[str] = FORMATS, language: str | None = None, convention: str | None = None,
     exports: Sequence[str] = (),
 ) -> Callable[[Variant], Mapping[str, bytes]]:
-    """The writer of a variant's papers, in any process: ``problem_set(scene, 30, render=papers_of(scene))``.
+    """The writer of a variant's papers, also in another process: ``problem_set(scene, 30, render=papers_of(scene))``.
 
     Raises
     ------
