@@ -65,6 +65,16 @@ def test_a_pivot_that_two_distances_place_stays_while_the_lengths_vary():
     assert source["links"]["2"] != made["links"]["2"]
 
 
+def test_an_angle_of_0_varies_but_no_zero_place_no_wheel_of_a_rack_and_no_moment_of_several_laws():
+    source = {
+        "frame": {"points": {"A": [0, 5]}}, "gears": {"g": {"teeth": [20, 40]}, "r": {"teeth": [20, "rack"]}},
+        "driver": [{"angle": 0, "omega": 3}, {"travel": 0, "law": {"pieces": []}, "time": 2}],
+    }
+    varied = [("frame", "points", "A", 1), ("driver", 0, "angle"), ("driver", 0, "omega"),
+              ("gears", "g", "teeth", 0), ("gears", "g", "teeth", 1)]
+    assert varied == [path for path, _ in varied_keys(source)]
+
+
 def test_each_variant_asks_some_of_the_list_in_its_order():
     asked = [tuple(candidate(_source(), Spread(), 1, n, 0)["find"]) for n in range(20)]
     assert {("v_C", "v_P"), ("v_C", "omega_2"), ("v_P", "omega_2")} == set(asked)
