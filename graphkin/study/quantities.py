@@ -145,4 +145,5 @@ def motion_table(
 
 def word_column(name: str, words: Words, n: int) -> Column:
     """A column of words; a single one stands in every row."""
-    return Column(name, np.full(n, [*map(str, words)], object))
+    known = np.array([str(word) for word in words], dtype=object)  # without it NumPy makes each as wide as the widest
+    return Column(name, np.full(n, known))
