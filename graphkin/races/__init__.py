@@ -110,11 +110,8 @@ def _peer(name: str, work: Work, repeats: int) -> Iterator[Entry]:
 
 def race_table(race: Race) -> Table:
     """One row for each method; first the floor."""
-    floor = Entry("closed", "copying", "", race.copying, (None, None))
-    rows = [
-        (e.key, e.tag, "floor" if e is floor else e.family, *chain(*zip(e.costs, e.errors, strict=True)))
-        for e in (floor, *race.entries)
-    ]
+    rows: list[tuple[object, ...]] = [("copying", "", "floor", *chain(*((cost, None) for cost in race.copying)))]
+    rows += [(e.key, e.tag, e.family, *chain(*zip(e.costs, e.errors, strict=True))) for e in race.entries]
     numbers = [f"{kind}_{of}" for kind in KINDS for of in ("cost_s", "error")]
     return Table.of(("method", "tag", "family", *numbers), rows, ("", "", "", *(".3g" for _ in numbers)))
 
@@ -253,7 +250,8 @@ def _draw(figure: Figure, race: Race, order: int, box: Box, language: str) -> No
     """Draw the chart of velocities, or of accelerations: a point for each method that gives them."""
     known = ((e, e.costs[order], e.errors[order]) for e in race.entries)
     points = [(e, c, max(error, LOWEST * 1.5)) for e, c, error in known if error is not None and isfinite(error)]
-    costs, floor, kind = [c for _, c, _ in points], race.copying[order], KINDS[order]
+    costs = [c for _, c, _ in points]
+    floor, kind = race.copying[order], KINDS[order]
     title = f"{word(f'speed of {kind}', language)}: {word('largest error', language)}"
     axes = add_panel(figure, box, f"speed-{kind}", title, word("cost of a position", language))
     count_powers(axes, "x", min(floor, *costs) / 1.5, max(costs) * 1.5, most=14)

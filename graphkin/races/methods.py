@@ -142,8 +142,9 @@ def whole_solve(work: Work, repeats: int) -> Iterator[Entry]:
         return
     count = work.count // 10
     whole = best_time(lambda: solver.solve(work.scene, sweep=count), repeats) / count
-    poses = [work.motion.posed.point(ref) for ref in work.outputs]
-    v, a = (np.array([getattr(pose, field)[work.rows] for pose in poses]) for field in "va")
+    points = [work.motion.posed.point(ref) for ref in work.outputs]
+    v = np.array([point.v[work.rows] for point in points])
+    a = np.array([point.a[work.rows] for point in points])
     yield Entry("closed", "whole solve", "", (whole, whole), work.errors(v, a))
 
 

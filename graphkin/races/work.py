@@ -56,7 +56,8 @@ def holder(scene: Mechanism, ref: PointRef) -> str:
 def point_rates(equations: Equations, solution: Solution, outputs: Sequence[PointRef]) -> tuple[Array, Array]:
     """Velocities and accelerations of points, as complex numbers of the kind in which the equations are solved, shape
     (outputs,) or (outputs, positions)."""
-    structure, velocities, accelerations = equations.structure, [], []
+    structure = equations.structure
+    velocities, accelerations = [], []
     for ref in outputs:
         link = holder(structure.scene, ref)
         local = equations.under(solution, *ref) if ref.link else structure.links[link].points[ref.point]
@@ -127,8 +128,11 @@ class Work:
         """The asked outputs: points, or points of links whose turning is asked for."""
         refs = {ref for s in self.asked for ref in (s.of, s.to) if ref is not None}
         turning = {s.link for s in self.asked if s.link}
-        return tuple(ref for ref in self.outputs if ref in refs or (
-            not ref.link and holder(self.scene, ref) in turning)) or self.outputs
+        asked = tuple(
+            ref for ref in self.outputs
+            if ref in refs or (not ref.link and holder(self.scene, ref) in turning)
+        )
+        return asked or self.outputs
 
 
 def _error(right: Array, measured: Array | None) -> float | None:

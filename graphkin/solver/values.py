@@ -509,12 +509,13 @@ def _of_forces(scene: Mechanism, forces: Forces, some: slice) -> Columns:
     """Forces and moments; a key with + is the value with the loads that begin or end exactly at a position."""
     found: Columns = {"forces": {}, "moments": {}}
     for symbol, values in forces.values.items():
-        part, beside = found["forces" if symbol.is_vector else "moments"], forces.beside.get(symbol)
-        for name, known in ((str(symbol), values), (f"{symbol}+", beside)):
-            if known is not None:
-                shown = known[some] / scene.units.newtons
-                there = None if known is values else ~np.isnan(shown)
-                part[name] = _plain(shown.astype(complex) if symbol.is_vector else shown.real, there)
+        part = found["forces" if symbol.is_vector else "moments"]
+        shown = values[some] / scene.units.newtons
+        part[str(symbol)] = _plain(shown.astype(complex) if symbol.is_vector else shown.real)
+        if symbol in forces.beside:
+            shown = forces.beside[symbol][some] / scene.units.newtons
+            there = ~np.isnan(shown)
+            part[f"{symbol}+"] = _plain(shown.astype(complex) if symbol.is_vector else shown.real, there)
     bounds = (bound[some] / scene.units.newtons for bound in forces.bound)
     return {**found, "force_bound": {part: bound.tolist() for part, bound in zip(found, bounds, strict=True)}}
 

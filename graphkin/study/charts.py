@@ -319,7 +319,8 @@ def panel_of(
     allowed, falling = _allowed(quantity, axis.scene)
     title = lettered(axis.scene, quantity) + f" ({quantity.unit(axis.scene.units).written})"
     return Panel(
-        quantity, title, curve, dots, marked, span, unbounded, allowed, falling, laid_over, tuple(jumps)
+        quantity, title, curve, dots, marked, span, unbounded=unbounded, allowed=allowed, falling=falling,
+        laid_over=laid_over, jumps=tuple(jumps),
     )
 
 

@@ -539,11 +539,10 @@ def _of_designs(table: Table, designs: Designs, n: int) -> Table:
         return table
     rows = [designs[k] for k in range(len(designs))]
     numbers = Column("design", np.repeat(designs.first + 1 + np.arange(len(rows)), n))
-    replaced = (
-        Column(key, np.repeat(np.array([str(row[k]) for row in rows] if word else [row[k] for row in rows],
-                                       object if word else float), n))
-        for k, (key, word) in enumerate(zip(designs.keys, designs.worded, strict=True))
-    )
+    replaced: list[Column] = []
+    for k, (key, word) in enumerate(zip(designs.keys, designs.worded, strict=True)):
+        values = [str(row[k]) if word else row[k] for row in rows]
+        replaced.append(Column(key, np.repeat(np.array(values, object if word else float), n)))
     return Table((numbers, *replaced, *table.columns), ("design", "position"))
 
 

@@ -146,11 +146,11 @@ def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Json]:
 
 def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
     quantity, stroke, back = output.quantity, output.stroke, turn.quick_return(output)
-    mover, way = ("link", "swing") if quantity.kind == "theta" else ("slide", "stroke")
+    mover, extent = ("link", "swing") if quantity.kind == "theta" else ("slide", "stroke")
     data: dict[str, Json] = {
         mover: quantity.pair,
         "limit_positions": [_extreme(turn, quantity, e) for e in output.position.extremes],
-        way: None if stroke is None else quantity.unit(turn.scene.units, radians=True).of(stroke),
+        extent: None if stroke is None else quantity.unit(turn.scene.units, radians=True).of(stroke),
     }
     data["K"], data["theta"] = back if back else (None, None)
     if stroke is None:
@@ -169,8 +169,9 @@ def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
         cells[f"range_{name} ({unit.text})"] = unit.of(value) if limited or turn.reach.full else None
     for output in turn.outputs:
         quantity, stroke, back = output.quantity, output.stroke, turn.quick_return(output)
-        own_unit, way = quantity.unit(scene.units), "swing" if quantity.kind == "theta" else "stroke"
-        cells[f"{way}_{quantity.pair} ({own_unit.text})"] = None if stroke is None else own_unit.of(stroke)
+        extent = "swing" if quantity.kind == "theta" else "stroke"
+        measured = quantity.unit(scene.units)
+        cells[f"{extent}_{quantity.pair} ({measured.text})"] = None if stroke is None else measured.of(stroke)
         cells[f"K_{quantity.pair}"] = back[0] if back else None
     for least in turn.transmission:
         cells[f"least_transmission_{least.group.label} (deg)"] = math.degrees(least.angle)

@@ -314,7 +314,8 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
 
 def _follow_rolled(path: Path, i: int, rolled: RollingRelation, mode: Array, grid: Array) -> Path:
     """Count the turns of the links on which a link rolls."""
-    poses, columns = path.placed(grid, i).poses, []
+    poses = path.placed(grid, i).poses
+    columns = []
     for k, ((kind, name), _) in enumerate(rolled.factors):
         columns.append(np.full(len(grid), mode[2 * k]))
         if kind == "angle":
