@@ -110,6 +110,19 @@ def test_memory_stays_bounded() -> None:
     assert len(begun) <= 2 * 4 + 1
 
 
+@pytest.mark.parametrize(("processes", "ahead"), [(None, 0), (1, 0), (2, 8), (3, 12)])
+def test_own_processes_have_four_pieces_each_and_this_process_alone_has_none(
+    processes: int | None, ahead: int
+) -> None:
+    assert ahead == Workers(processes=processes).ahead
+
+
+def test_an_executor_has_four_pieces_for_each_worker_it_tells_of_and_eight_at_least() -> None:
+    silent = Broken(0, BrokenExecutor())
+    with ThreadPoolExecutor(1) as one, ThreadPoolExecutor(3) as three:
+        assert [8, 12, 8] == [Workers(executor).ahead for executor in (one, three, silent)]
+
+
 def test_a_pool_whose_process_was_killed_is_replaced(tmp_path: Path) -> None:
     with Workers(processes=2) as workers:
         assert "done" == workers.start(lost_once, str(tmp_path / "once"))()

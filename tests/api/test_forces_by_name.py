@@ -149,6 +149,7 @@ def test_a_force_goes_away_without_bound_where_the_balance_does_no_work():
     swept = graphkin.sweep(idle(), positions=4)
     forces = {name: force["extremes"] for name, force in swept.data["forces"].items()}
     assert [None, None, pytest.approx(4000 / 30)] == [e["value"] for e in forces["F_1/2"]]
+    assert "it grows without bound there" == forces["F_1/2"][0]["why"]
     assert [pytest.approx(4000 / 50), pytest.approx(4000 / 110)] == [e["value"] for e in forces["F_4/3"]]
     assert [pytest.approx(np.pi), 0] == [e["driver"] for e in forces["F_4/3"]]
     assert "F_1/2 (N): grows without bound at 0°, 180°; minimum 133.333 @ " in swept.text

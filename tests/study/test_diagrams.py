@@ -21,7 +21,7 @@ from graphkin.study.diagrams import coupler_points, diagrams, measured
 from graphkin.study.quantities import course_of, link_quantities, slide_quantities
 from graphkin.study.turn import TurnStudy, study_turn
 from tests import scenes
-from tests.drawing.chart_words import off_the_page, overlapping
+from tests.drawing.chart_words import off_the_page, overlapping, word_boxes
 
 
 @cache
@@ -195,6 +195,16 @@ def test_a_constant_has_an_axis() -> None:
     speed = next(axes for axes in page.figure().axes if axes.get_gid() == "omega_3")
     low, high = speed.get_ylim()
     assert all(low < y < high for line in speed.lines if len(line.get_xdata()) > 100 for y in line.get_ydata())
+
+
+@pytest.mark.parametrize(("language", "title"), [("en", "Motion of link 4"), ("zh", "构件 4 的运动线图")])
+def test_a_page_is_headed_by_its_title_the_scene_and_the_facts(language: str, title: str) -> None:
+    page, scene = pages("shaper-scheme-2", language, 0)["motion-link-4"], turn_of("shaper-scheme-2").scene
+    heads = [words for words, _ in word_boxes(page)][:3]
+    assert [title, scene.question.title_in(language)] == heads[:2]
+    assert f"{title}: {scene.question.title_in(language)}" == page.title
+    assert "29.8012°" in heads[2]
+    assert scene.name == page.metadata["scene"]
 
 
 def test_the_same_scene_gives_the_same_pages() -> None:

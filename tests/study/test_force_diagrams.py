@@ -143,6 +143,14 @@ def test_a_force_that_grows_without_bound_is_said_to():
     assert "F_2 (kN): grows without bound at 39.4449 mm, 760.555 mm; minimum 0 @ " in swept.text
 
 
+@pytest.mark.parametrize(("scene", "force", "whole"), [("shaper-forces", "F_1/2", True), ("boom-lifted", "F_2", False)])
+def test_a_panel_holds_a_whole_force_unless_it_grows_without_bound(scene, force, whole):
+    reach = driver_range(mechanism_of(scene))
+    axis = DriverAxis(reach)
+    panel = force_panel(axis, Symbol.parse(force), axis.offsets)
+    assert (whole, whole) == (not panel.unbounded, np.nanmax(panel.curve[:, 1]) < panel.span[1])
+
+
 @pytest.mark.parametrize(
     ("scene", "force", "least", "at"),
     [
