@@ -54,6 +54,15 @@ def test_one_position_in_plain_floats_is_the_same_to_the_last_bit() -> None:
     assert [ready.at(float(v)) for v in values] == [tuple(row) for row in columns.T.tolist()]
 
 
+@pytest.mark.parametrize(("name", "count"), [("sixbar-AE70", 237), ("boom-lifted", 721)])
+def test_a_sweep_of_a_limited_range_has_the_positions_that_its_range_reaches(name: str, count: int) -> None:
+    ready = prepare(mechanism_of(name), ["omega_2"])
+    columns, ok = ready.sweep(721)
+    reached = ready.range.reaches(ready.range.offsets(ready.range.grid(721).values))
+    assert reached.tolist() == ok.tolist() == np.isfinite(columns[0]).tolist()
+    assert count == ok.sum()
+
+
 def test_a_sweep_in_pieces_is_the_sweep() -> None:
     ready = four_bar()
     whole, _ = ready.sweep(1000)
