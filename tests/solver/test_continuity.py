@@ -48,6 +48,13 @@ def test_a_parallelogram_that_begins_in_line_takes_the_form_of_the_rule() -> Non
     assert np.abs(motion.omega("2")[motion.ok]).max() < 1e-9
 
 
+def test_a_path_places_links_beside_its_change_points_where_a_group_has_no_assembly() -> None:
+    path = driver_range(mechanism_of_text(scenes.PARALLELOGRAM, "scene")).ahead
+    crank, rocker = (path.placed(path.flips).poses[link].u for link in "13")
+    assert 2 == len(path.flips)
+    assert np.abs(crank - rocker).max() < 1e-9  # 2e-8 in the change point itself
+
+
 def test_an_antiparallelogram_stays_one_through_its_change_points() -> None:
     text = scenes.PARALLELOGRAM.replace("C = [350, 87]", "C = [250, -40]")
     motion = solve(mechanism_of_text(text, "scene"), sweep=50)
