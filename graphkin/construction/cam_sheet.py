@@ -19,7 +19,7 @@ from graphkin.construction.board.steps import NO_POINT, Bar, CompassArc, Curve, 
 from graphkin.construction.tasks import TaskBoard, TaskStep
 from graphkin.construction.touching import CamStation, station, stations
 from graphkin.plane import cross_arcs, cross_line_arc, dot, unit
-from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower, less_unless_touching
+from graphkin.scene.pairs import LawCam, SlidingFollower, SwingingFollower, beyond_rounding
 
 STEP = math.radians(15.0)
 FEWEST, MOST = 4, 12
@@ -127,7 +127,7 @@ def _on_line(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instr
     foot = side * way * hand.compass(abs(away)) if abs(away) > TINY * cam.base * mm else 0j
     if cam.flat:  # the face touches the base circle, wherever its line runs
         start = foot + base * way
-    elif not less_unless_touching(base, abs(foot)):
+    elif not beyond_rounding(base, abs(foot)):
         start = foot
     else:
         crossed = cross_line_arc(foot, way, 0j, base)
@@ -147,7 +147,7 @@ def _on_arc(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instru
     if crossed is None:
         return None
     half = (abs(pivot) + arm + base) / 2  # of the perimeter of the triangle: as long as a side where both arcs touch
-    touching = not all(less_unless_touching(half, side) for side in (abs(pivot), arm, base))
+    touching = not all(beyond_rounding(half, side) for side in (abs(pivot), arm, base))
     nearest = min(crossed, key=lambda z: abs(z - given.base))
     start = hand.point((crossed[0] + crossed[1]) / 2 if touching else nearest)
     turned = unit((given.point - given.line) / (given.base - given.line))

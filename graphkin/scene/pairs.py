@@ -59,7 +59,7 @@ TOUCHING = 1e-13
 """Of a length: another that differs by less differs by rounding alone."""
 
 
-def less_unless_touching(length: float, other: float) -> float:
+def beyond_rounding(length: float, other: float) -> float:
     """A length less another; 0 where they differ by rounding alone: a circle only touches the line or the arc."""
     return length - other if abs(length - other) > TOUCHING * length else 0.0
 
@@ -562,7 +562,7 @@ class LawCam:
         """
         motion, length = self.motion, (units or Units()).of("length")
         if isinstance(motion, SlidingFollower):
-            beyond = less_unless_touching(self.base, abs(motion.offset))
+            beyond = beyond_rounding(self.base, abs(motion.offset))
             if self.flat or beyond >= 0.0:
                 return self.base if self.flat else math.sqrt(beyond * (self.base + abs(motion.offset)))
             said = Phrase("the line of follower passes outside the base", follower=self.follower)
@@ -571,7 +571,7 @@ class LawCam:
             # half the angle at the pivot of a triangle with these three sides
             a, b, c = abs(self.axis - motion.centre), motion.arm, self.base
             half = (a + b + c) / 2
-            over_a, over_b, over_c = (less_unless_touching(half, side) for side in (a, b, c))
+            over_a, over_b, over_c = (beyond_rounding(half, side) for side in (a, b, c))
             under, over = over_a * over_b, half * over_c
             if under >= 0.0 <= over:
                 return 2.0 * math.atan2(math.sqrt(under), math.sqrt(over))
