@@ -293,24 +293,28 @@ def _slipped(slips: Sequence[Slipped], symbol: Symbol, exact: Value) -> Iterator
 
 def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     """The value in another unit, doubled or halved, or by the scale of the other polygon."""
-    scene, scales, second = case.plan.structure.scene, case.plan.scales, symbol.measure.order == 2
-    units = [(f"{factor:g}", factor) for power in (1, 2, 3) for factor in (10.0**power, 0.1**power)]
+    scene, scales, measure = case.plan.structure.scene, case.plan.scales, symbol.measure
+    second, plain = measure.order == 2, measure.is_angle or measure.name == "number"
+    units = [(f"{factor:g}", factor) for power in (1, 2, 3) for factor in (10.0**power, 0.1**power) if not plain]
     unit_name = scene.units.length
-    if unit_name in INCHES and symbol.measure.is_of_motion and symbol.measure.length:  # no powers of ten
+    if unit_name in INCHES and measure.is_of_motion and measure.length:  # no powers of ten
         lengths = (LENGTHS[unit_name] / metres for unit, metres in LENGTHS.items() if unit != unit_name)
         units += [(f"{factor:.4g}", factor) for factor in lengths]
     for shown, factor in units:
         yield Suspect(Phrase("slip factor", factor=shown), exact * factor, 0.02)
     for name, factor in (("rpm", RPM), ("degrees", DEGREE)):
+        if not measure.order and not (measure.is_angle and name == "degrees"):
+            continue
         for times in (factor, 1 / factor):
             yield Suspect(Phrase(f"slip {name}"), exact * times, 0.01 if symbol.is_vector else 0.03)
             if second:
                 yield Suspect(Phrase(f"slip {name}"), exact * times**2, 0.01)
     by_rpm = any(d.rpm for d in scene.drivers)
-    for factor in (60.0, 1 / math.tau):  # n taken for n/60, or n/60 for omega
+    for factor in (60.0, 1 / math.tau) if measure.order else ():  # n taken for n/60, or n/60 for omega
         yield Suspect(Phrase("slip rpm"), exact * factor, 0.02 if by_rpm else 0.005)
-    yield Suspect(Phrase("slip double"), exact * 2, 0.02)
-    yield Suspect(Phrase("slip half"), exact / 2, 0.02)
+    if not plain:
+        yield Suspect(Phrase("slip double"), exact * 2, 0.02)
+        yield Suspect(Phrase("slip half"), exact / 2, 0.02)
     if symbol.scope != "motion":
         return
     wanted = scene.question.sheet
