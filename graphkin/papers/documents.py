@@ -58,7 +58,7 @@ from graphkin.papers.lesson import Lesson, Stage
 from graphkin.papers.paper import A4, Paper
 from graphkin.plane import added_up, degrees
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
 from graphkin.words import Neutral, Phrase, about, joined, languages, listed, rich_text, say, sense_of, word
 from graphkin.words.symbols import RichText, Words, sign, spaced
@@ -216,7 +216,7 @@ def coincident_points(lesson: Lesson) -> Iterator[Paragraph]:
     """The meaning of the asked points that are told apart by their link, ``B_3``."""
     ends = (ref for symbol in lesson.questions for ref in (symbol.of, symbol.to) if ref is not None)
     points = dict.fromkeys(
-        Phrase("coincident point", point=ref, link=link, place=PointNames((ref.point,)))
+        Phrase("coincident point", point=PointRef(ref.point, link), link=link, place=PointNames((ref.point,)))
         for ref in ends if (link := ref.link or lesson.letters.blocks.get(ref.point))
     )
     if points:

@@ -237,4 +237,4 @@ def prairielearn(question: Question) -> dict[str, bytes]:
 
 
 def _variable(asked: AskedNumber) -> str:
-    return _NOTHING.sub("_", asked.symbol).strip("_")
+    return _NOTHING.sub("_", asked.symbol.replace("+", "_plus")).strip("_")

@@ -8,6 +8,7 @@ import json
 import re
 import runpy
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import pytest
@@ -161,6 +162,21 @@ def test_a_prairielearn_folder_asks_grades_and_answers_slips(made, files, tmp_pa
     data["submitted_answers"][name] = one.slips[0][0]
     server["grade"](data)
     assert one.slips[0][1] == data["partial_scores"][name]["feedback"]
+
+
+def test_a_force_without_and_with_a_load_that_begins_have_a_field_each_in_prairielearn(made):
+    from graphkin.papers.exports import prairielearn
+
+    one = made.question.asked[0]
+    forces = tuple(replace(one, symbol=symbol) for symbol in ("F_3/2", "F_3/2+"))
+    inputs = Inputs()
+    inputs.feed(prairielearn(replace(made.question, asked=forces))["question.html"].decode())
+    assert {"F_3_2", "F_3_2_plus"} == set(inputs.found)
+
+
+def test_a_coincident_point_that_two_quantities_need_is_explained_once():
+    made = graphkin.handout(SCENE, find=["v_B@3/B@2", "y_B"], formats=("html",), positions=1, exports=("gift",))
+    assert 1 == made.question.html.count(" is the point of link 2 ")
 
 
 def test_a_set_of_variants_becomes_one_bank(tmp_path):
