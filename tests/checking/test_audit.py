@@ -98,7 +98,9 @@ def test_a_common_slip_is_called_by_its_name(values, name):
     assert name in entry["looks_like"]
 
 
-@pytest.mark.parametrize(("symbol", "said"), [("s_2/3", "3644"), ("s_2/3", "6.66"), ("theta_3", "8.183"), ("theta_3", "7.814")])
+@pytest.mark.parametrize(
+    ("symbol", "said"), [("s_2/3", "3644"), ("s_2/3", "6.66"), ("theta_3", "8.183"), ("theta_3", "7.814")]
+)
 def test_a_position_is_in_no_unit_of_a_rate_and_an_angle_in_none_of_a_length(symbol, said):
     assert "looks_like" not in judged(SIXBAR, **{symbol: said})
 
