@@ -157,7 +157,7 @@ def _locus(paper: TaskBoard, first: complex, second: complex, above: int, K: flo
     turn = legs if (tilt > 0) == (above > 0) else legs[::-1]
     paper.step("cross", "design centre", angle(left, *turn, abs(tilt)),
                *fan("construction", left, centre, right), Ray(midway, square, centre), *points(O=centre),
-               CompassArc(centre, radius, first, whole=True), angles=(tilt, theta))
+               CompassArc(centre, radius, first, whole=True), angles=(abs(tilt), theta))
     return centre, radius
 
 

@@ -16,7 +16,7 @@ from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.structure import analyse
 from graphkin.words import Phrase
 from graphkin.words.symbols import Words, sign, spaced
-from graphkin.words.written import amount, on_paper
+from graphkin.words.written import amount, on_paper, true_minus
 
 DECIMALS = range(2, 9)
 """Of lengths (mm) from which others are reckoned, until that is true as it is written."""
@@ -47,7 +47,7 @@ class TaskStep(Step):
             case "divisions", _, _:
                 return str(len(self.divisions))
             case "angles", _, i:
-                return f"{math.degrees(self.angles[int(i)]):.6g}"
+                return true_minus(f"{math.degrees(self.angles[int(i)]):.6g}")
             case "circles", _, i:
                 return amount(self.radii[int(i)], 4)
             case "measured", _, _:

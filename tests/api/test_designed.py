@@ -310,6 +310,14 @@ def test_the_coordinates_of_a_crossing_on_the_negative_side_have_the_minus_of_pr
     assert re.search(r"Q lies −[\d.]+ mm across and −[\d.]+ mm up", said)
 
 
+@pytest.mark.parametrize(("design", "said"), [
+    ({"kind": "limits", "A": [0, 0], "D": [-80, 20], "rocker": 40, "angles": [-150, -100]}, "limits −150° and −100°"),
+    ({"kind": "crank-rocker", "swing": 100, "rocker": 60, "K": 3.5, "frame": 58}, "lay off 10° at the left end"),
+])
+def test_angles_that_are_laid_off_have_the_minus_of_print_and_a_size(design, said):
+    assert said in " ".join(say(step.phrase) for step in found(design).sheet.steps)
+
+
 def test_what_a_turn_confirms_is_named_in_both_languages():
     svg = graphkin.design("crank-rocker-swing-32", language="both").figures["design"].content("svg").decode()
     assert "swing 摆角" in re.sub(r"<[^>]*>", "", svg)

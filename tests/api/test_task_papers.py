@@ -49,6 +49,12 @@ def test_the_solution_shows_what_was_measured_beside_the_exact_length_and_the_ke
         assert f" {measured} " not in papers["key.html"]
 
 
+def test_only_what_a_turn_confirms_is_told_as_confirmed():
+    pairs = {"kind": "function", "frame": 100, "pairs": [[10, 200], [50, 220], [90, 250]]}  # 293.4 and 339.6 degrees
+    said = text_of(design_papers(graphkin.design({"design": pairs}), ["html"])["key.html"])
+    assert "Confirmed by a turn: rocker at 10°: 200°." in said
+
+
 def test_the_papers_of_a_synthesis_are_typeset(tmp_path):
     done = run("handout", "rocker-limits", "-o", str(tmp_path), "--lang", "both")
     assert 0 == done.returncode

@@ -162,7 +162,7 @@ def write_design_papers(
 def _notes(designed: Designed, language: str) -> list[Said]:
     """Sentences on the found mechanism, and on its values over a turn."""
     made: list[Said] = []
-    known = [value for value in designed.confirmed if math.isfinite(value.found)]
+    known = [value for value in designed.confirmed if value.ok]
 
     def told(each: str) -> str:
         mark = word("colon", each)
