@@ -6,14 +6,16 @@ import pytest
 
 from graphkin import draw
 from graphkin.drawing import Box, Text
-from graphkin.drawing.ink.primitives import Group, Line, walk
+from graphkin.drawing.ink.primitives import Arc, Group, Line, walk
 from graphkin.drawing.ink.strokes import HATCHING
+from graphkin.drawing.parts.dimensioning import LENGTHS
 from graphkin.drawing.place.dimensions import DimensionClearance, dimension
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import rich, text_box
 from graphkin.scene import library
 from graphkin.words.written import as_given
 from tests.drawn import drafted
+from tests.scenes import four_bar
 
 SCENE = {
     "units": {"length": "mm"},
@@ -112,6 +114,14 @@ def test_the_angle_of_the_crank_stands_on_every_mechanism(name: str, degrees: fl
     texts = words(draw(name, at=degrees, figures=["mechanism"], language="en").figures["mechanism"])
     ways = {f"{way:g}°".replace("-", "−") for way in (degrees, (degrees + 180) % 360 - 180)}
     assert any(text == shown or text.endswith((f"={shown}", f"= {shown}")) for text in texts for shown in ways), texts
+
+
+@pytest.mark.parametrize(("degrees", "said"), [(1, "φ1= 1°"), (3, "3°")])
+def test_a_small_angle_has_an_arc_that_is_seen_or_is_written_at_its_pivot(degrees: float, said: str) -> None:
+    figure = draw(four_bar(50, 120, 90, 130), at=degrees, figures=["mechanism"]).figures["mechanism"]
+    assert said in words(figure)
+    drawn = next(group for group in walk(figure.children) if isinstance(group, Group) and group.id == LENGTHS)
+    assert [] == [arc for arc in drawn.children if isinstance(arc, Arc) and abs(arc.end - arc.start) * arc.radius < 0.5]
 
 
 def test_an_angle_beyond_180_degrees_is_dimensioned_as_it_is_given():

@@ -52,7 +52,7 @@ ANGLE_RADII = (10.0, 13.0, 16.0, 20.0, 25.0, 31.0)
 CLOSE_RADII = (8.0, 10.0, 13.0, 16.0, 20.0, 6.5)
 WIDEST_ROUND = 16.0  # mm, of an angle beyond 180 degrees
 SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)  # of the arc, or the line, where its number may stand
-LEAST_ANGLE = math.radians(0.5)
+LEAST_ARC = 1.0  # mm: on a shorter one nothing is seen of its arrowhead
 
 
 def drawn_lengths(
@@ -164,8 +164,14 @@ def _turned(
 ) -> Parts | None:
     """A turn (rad) about a place on the page from one of some directions."""
     runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
-    drawn = (angle_dimension(at, radius, start, start + turn, runs) for radius in radii for start in starts)
+    ways = product(_seen(radii, turn) or radii[-1:], starts)
+    drawn = (angle_dimension(at, radius, start, start + turn, runs) for radius, start in ways)
     return room.take(drawn, 0, ends_on_line=True)
+
+
+def _seen(radii: Sequence[float], turn: float) -> list[float]:
+    """The radii (mm) on which an arrowhead is seen on the arc of a turn (rad)."""
+    return [radius for radius in radii if radius * abs(turn) >= LEAST_ARC]
 
 
 def _distance(link: PlacedLink, one: str, other: str) -> float:
@@ -280,15 +286,15 @@ def _angles(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts 
             continue
         start = phase(base.axis) if base is not None else 0.0
         at, way = on_page(pivot), complex(math.cos(start), -math.sin(start))
-        # rather an arc over the links than none; of a turn too small no arc is seen
+        # rather an arc over the links than none
         found = None
-        ways = product(turns, ((False, ANGLE_RADII), (True, CLOSE_RADII)))
-        for turn, (crossing, radii) in ways if abs(turns[-1]) >= LEAST_ANGLE else ():
+        for turn, (crossing, radii) in product(turns, ((False, ANGLE_RADII), (True, CLOSE_RADII))):
             runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
             choices = (
                 (Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION),
                  *angle_dimension(at, radius, start, start + turn, runs, share))
-                for radius, share in product(radii, SHARES) if radius <= WIDEST_ROUND or abs(turn) <= math.pi
+                for radius, share in product(_seen(radii, turns[-1]), SHARES)
+                if radius <= WIDEST_ROUND or abs(turn) <= math.pi
             )
             found = found or room.take(choices, 1, over=True, ends_on_line=True, crossing=crossing)
         if found is not None:
@@ -383,7 +389,7 @@ def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:
         level = math.copysign(1.0, way.real)
         start = 0.0 if level > 0 else math.pi
         corner = on_page(slider.at + (GUIDE_LENGTH / 2 + 0.5) * way)
-        for radius in RADII:
+        for radius in _seen(RADII, math.radians(angle)) or RADII[-1:]:
             further = radius + OVERRUN
             choices.append((
                 Line(corner, corner + further * level, strokes.DIMENSION),
