@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import groupby
@@ -137,8 +137,9 @@ def _in_units(block: LoopBlock, scene: Mechanism) -> LoopBlock:
 def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
     """The velocity and the acceleration equation of loops that are solved together, with this position's numbers."""
     in_units = _in_units(block, scene)
-    weights = [1.0 if kind == "travel" else scene.size / scene.units.rates.metres for kind, _ in block.unknowns]
-    rows = tuple(tuple(number(x, 6) for x in row) for row in _clean(in_units.matrix.tolist()))
+    sizes = np.abs(in_units.matrix)
+    seen = np.where(sizes < 1e-14 * sizes.max(initial=0.0), 0.0, in_units.matrix)  # without rounding
+    rows = tuple(tuple(number(x, 6) for x in row) for row in seen.tolist())
     for key, right, values, letters in (
         ("loop velocities", in_units.velocity, in_units.rates, ("omega", "v")),
         ("loop accelerations", in_units.acceleration, in_units.second_rates, ("alpha", "a")),
@@ -147,18 +148,9 @@ def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
         travels = [kind == "travel" for kind, _ in block.unknowns]
         indices = (name.replace("/", "") for _, name in block.unknowns)
         names = [(sign if t else rate)(letters[t], index) for t, index in zip(travels, indices, strict=True)]
-        most = max(map(abs, (*right, *np.multiply(weights, values))), default=0.0)
-        kept = [x if w * abs(x) > ROUNDING * most else 0.0 for w, x in zip(weights, values, strict=True)]
-        rows_of = zip(names, travels, kept, strict=True)
+        rows_of = zip(names, travels, values, strict=True)
         solution = [n + f" = {units[t].beside(number(x, 7))}" for n, t, x in rows_of]
-        (column,) = _clean([right.tolist()])
-        yield MatrixEquation(key, rows, tuple(names), tuple(number(x, 6) for x in column), tuple(solution))
-
-
-def _clean(rows: Sequence[Sequence[float]]) -> list[list[float]]:
-    """Numbers, 0 where they are rounding alone."""
-    most = max((abs(x) for row in rows for x in row), default=0.0)
-    return [[0.0 if abs(x) < 1e-14 * most else x for x in row] for row in rows]
+        yield MatrixEquation(key, rows, tuple(names), tuple(number(x, 6) for x in right.tolist()), tuple(solution))
 
 
 # for terminals and for papers

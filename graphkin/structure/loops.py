@@ -313,6 +313,8 @@ def _between(structure: Structure, name: str, tail: str, tip: str) -> list[LoopA
 
 
 Matrix = NDArray[np.float64]
+Vectors = NDArray[np.complex128]
+ROUNDING = 1e-12  # of the sizes of the terms of a sum
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -394,39 +396,46 @@ def _solved(
                 if coordinate in unknowns:
                     factors[n, unknowns.index(coordinate)] += factor
     matrix = _components(factors)
-    velocity = _components(_right_side(loops, turning, known, 1))
     try:
-        rates = np.linalg.solve(matrix, velocity)
+        velocity, rates = _rates(matrix, *_right_side(loops, turning, known, 1))
     except np.linalg.LinAlgError:
         return None
     now = {**known, **{u: (float(rate), 0.0) for u, rate in zip(unknowns, rates, strict=True)}}
-    acceleration = _components(_right_side(loops, turning, now, 2))
-    second = np.linalg.solve(matrix, acceleration)
+    acceleration, second = _rates(matrix, *_right_side(loops, turning, now, 2))
     values = tuple(travels[name] if kind == "travel" else cmath.phase(axes[name]) for kind, name in unknowns)
     with_roots = tuple(replace(loop, root=_root(loop, axes)) for loop in loops)
     return LoopBlock(with_roots, unknowns, values, matrix, velocity, acceleration,
                      tuple(map(float, rates)), tuple(map(float, second)))
 
 
-def _components(vectors: NDArray[np.complex128]) -> Matrix:
+def _components(vectors: Vectors) -> Matrix:
     """Rows of complex numbers as rows of their x and y components in turn."""
     return np.stack([vectors.real, vectors.imag], axis=1).reshape(2 * len(vectors), *vectors.shape[1:])
 
 
-def _right_side(loops: Sequence[Loop], turning: Turning, rates: Rates, order: int) -> NDArray[np.complex128]:
-    """The part of each loop's rate that the known rates leave open, by the sum of its arrows' first or second rates."""
-    left_open = np.zeros(len(loops), complex)
+def _rates(matrix: Matrix, left_open: Vectors, sizes: Matrix) -> tuple[Matrix, Matrix]:
+    """The right side of a matrix equation and its solution, 0 where terms of these ``sizes`` leave rounding alone."""
+    sizes, right = np.repeat(sizes, 2), _components(left_open)
+    right = np.where(np.abs(right) > ROUNDING * sizes, right, 0.0)
+    found = np.linalg.solve(matrix, right)
+    most = np.abs(np.linalg.inv(matrix)) @ (sizes + np.abs(matrix) @ np.abs(found))
+    return right, np.where(np.abs(found) > ROUNDING * most, found, 0.0)
+
+
+def _right_side(loops: Sequence[Loop], turning: Turning, rates: Rates, order: int) -> tuple[Vectors, Matrix]:
+    """The part of each loop's rate that the known rates leave open, by the sum of its arrows' first or second rates,
+    and the sizes of its terms."""
+    left_open, sizes = np.zeros(len(loops), complex), np.zeros(len(loops))
     for n, loop in enumerate(loops):
         for arrow in loop.arrows:
             first, faster, more = turning[arrow.link]
             omega, alpha = rates.get(("angle", first), (0.0, 0.0))
             slip, push = rates.get(("travel", arrow.slide), (0.0, 0.0))
             omega, alpha = omega + faster, alpha + more
-            if order == 1:
-                left_open[n] -= 1j * omega * arrow.vector + slip * arrow.along
-            else:
-                left_open[n] -= (1j * alpha - omega**2) * arrow.vector + (2j * omega * slip + push) * arrow.along
-    return left_open
+            turned, along = (1j * omega, slip) if order == 1 else (1j * alpha - omega**2, 2j * omega * slip + push)
+            left_open[n] -= turned * arrow.vector + along * arrow.along
+            sizes[n] += abs(turned * arrow.vector) + abs(along * arrow.along)
+    return left_open, sizes
 
 
 # the root

@@ -65,3 +65,21 @@ def test_a_chosen_loop_goes_along_guides_to_the_pins_on_them() -> None:
 ])
 def test_the_root_of_a_loop_stands_in_the_units_of_the_file(root: str, scene: str) -> None:
     assert root in [line.strip() for line in graphkin.solve(scene).loops().plain.split("\n")]
+
+
+def test_the_rates_of_what_stands_on_two_links_that_turn_alike_are_0() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 100, "guides": {"s": {"through": [0, 40], "angle": 10}}},
+            "2": {"points": ["C"], "on": "1.s"},
+            "3": {"points": ["A", "C"], "length": 90, "guides": {"g": {"through": [20, 5], "angle": 70}}},
+            "4": {"on": "3.g", "guides": {"k": {"through": [0, 10], "angle": 50}}},
+            "5": {"points": ["B"], "on": "4.k"},
+        },
+        "driver": {"link": "1", "angle": 30, "omega": 5},
+    }
+    loops = graphkin.solve(scene).loops()
+    last = loops.data[-1]
+    assert [0.0] * 8 == [x for key in ("velocity", "rates", "acceleration", "second_rates") for x in last[key]]
+    assert "v_43 = 0 mm/s, v_54 = 0 mm/s" in loops.plain

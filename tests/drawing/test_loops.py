@@ -11,9 +11,12 @@ import numpy as np
 import pytest
 
 import graphkin
+from graphkin.account.loops import MatrixEquation
 from graphkin.drawing import svg_bytes
+from graphkin.drawing.figures.loops import _matrix
 from graphkin.drawing.ink.primitives import Arc, Group, Line, Text, walk
 from graphkin.errors import CallError
+from graphkin.words.symbols import sign
 
 SCENES = ("shaper-scheme-2", "sixbar-coupler-1A", "single-flier", "double-butterfly", "hydraulic-cylinder",
           "oldham-coupling", "scotch-yoke", "cam-eccentric-flat-rocker")
@@ -115,3 +118,10 @@ def test_a_sheet_bears_the_loops_where_the_scene_wishes_for_them() -> None:
 def test_no_loop_goes_along_a_link_and_back() -> None:
     loops = [loop["points"] for block in graphkin.solve("scissor-lift").loops().data for loop in block["loops"]]
     assert [["D", "N", "C", "M"], ["C", "Q", "P"], ["B", "A", "M"]] == loops
+
+
+def test_a_matrix_too_wide_for_its_column_has_letters_of_2_mm() -> None:
+    wide = MatrixEquation("loop velocities", (("−112.081",) * 6,) * 6, (sign("v", "12"),) * 6, ("24.7983",) * 6, ())
+    block = _matrix(wide, 84.0)
+    letters = (run.size for text in walk(block.piece.drawn) if isinstance(text, Text) for run in text.runs)
+    assert (True, 2.0) == (block.width > 84.0, min(letters))

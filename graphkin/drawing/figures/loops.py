@@ -16,7 +16,7 @@ from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.board.scales import next_of_series
 from graphkin.construction.board.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose, row
+from graphkin.drawing.boxes import BARE, SIZE, Block, FigurePage, column, panel, prose, row
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Line, Polyline, Primitive, Run, Stroke, Text, on_page
@@ -25,7 +25,7 @@ from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, moved_piece
 from graphkin.drawing.plate import Plate
-from graphkin.drawing.text import rich, runs_width
+from graphkin.drawing.text import SMALLEST, rich, runs_width
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.structure.loops import Loop, LoopBlock, loops_in_numbers
@@ -69,13 +69,21 @@ def _loop(page: FigurePage, block: LoopBlock, loop: Loop, scale: float) -> Block
     height = max(PANEL[1] if len(block.loops) == 1 else 30.0, box.height + 2 * ROOM)
     polygon = panel(PANEL[0], height, lambda room: with_labels(moved_piece(piece, room.centre - box.centre), room))
     width = page.width - PANEL[0] - BESIDE
-    lines = [prose((line,), width, bold=bold) for line, bold in _lines(page, loop, block)]
-    solved = [
-        part for matrix in (matrices(block, page.sheet.scene) if loop is block.loops[-1] else ())
+    lines = column(*(prose((line,), width, bold=bold) for line, bold in _lines(page, loop, block)))
+    equations = [*matrices(block, page.sheet.scene)] if loop is block.loops[-1] else []
+    solved, below = _solved(page, equations, width), None
+    if solved.width > width:  # too wide even in the smallest letters: it stands below, across the page
+        solved, below = BARE, _solved(page, equations, page.width)
+    return column(row(polygon, column(lines, solved, gap=1.0), gap=BESIDE), below)
+
+
+def _solved(page: FigurePage, equations: Sequence[MatrixEquation], width: float) -> Block:
+    """Matrix equations below each other, each with its solution, in a width (mm)."""
+    return column(*(
+        part for matrix in equations
         for part in (prose((page.term(matrix.key),), width, bold=True), _matrix(matrix, width),
                      prose((spaced(",  ", matrix.solution),), width))
-    ]
-    return row(polygon, column(column(*lines), column(*solved, gap=1.2), gap=1.0), gap=BESIDE)
+    ), gap=1.2)
 
 
 def _scale(blocks: Iterable[LoopBlock]) -> float:
@@ -188,16 +196,16 @@ def _matrix(matrix: MatrixEquation, room: float) -> Block:
         columns = [[rich(cell, size) for cell in cells] for cells in zip(*matrix.rows, strict=True)]
         names, right = [rich(n, size) for n in matrix.unknowns], [rich(r, size) for r in matrix.right]
         widths = [max(map(runs_width, cells)) for cells in (*columns, names, right)]
-        if added_up(widths) + 2.6 * len(columns) + 16.0 <= room or size <= 1.6:
+        if added_up(widths) + 2.6 * len(columns) + 16.0 <= room or size <= SMALLEST:
             break
-        size -= 0.2
+        size = max(SMALLEST, size - 0.2)
     step = 1.5 * size
     height = step * len(matrix.rows) + 0.6
     drawn: list[Primitive] = []
 
     def bracket(x: float, sense: float) -> None:
-        for start, end in ((0j, 0.9 * sense + 0j), (0j, height * 1j), (height * 1j, height * 1j + 0.9 * sense)):
-            drawn.append(Line(x + start, x + end, strokes.DIMENSION))
+        top, low = x + 0j, x + height * 1j
+        drawn.append(Polyline((top + 0.9 * sense, top, low, low + 0.9 * sense), strokes.DIMENSION))
 
     def bracketed(x: float, columns: Sequence[Sequence[tuple[Run, ...]]], anchor: str, past: float = 1.4) -> float:
         """Columns of cells between brackets, which begin at a place; the place of the second."""
