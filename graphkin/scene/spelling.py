@@ -443,7 +443,7 @@ def _from_axis(match: re.Match[str]) -> tuple[float, float]:
 
 _NOTHING = _said("nothing", "[-?/—]?|--")
 _DECIMAL = re.compile(r"[+\-]?\d+,\d+(?:[eE][+\-]?\d+)?")
-_THOUSANDS = re.compile(r"[+\-]?\d{1,3}(?:,\d{3})+(?:\.\d+)?")
+_THOUSANDS = re.compile(r"[+\-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d+)?")
 _ABOUT, _ASIDE = _said("about", "[≈~≃≅∼]"), _said("beside a value")
 _RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)(?:\s*\})?")
 # an inch behind a number or a force, which is no "in the sense of"
@@ -452,11 +452,12 @@ _INCHES = re.compile(
     r"(?!\s+(?:the|its|a|direction|sense|positive|negative|[+-]?[xy]|mm|cm|m|rad|deg)\b)", re.IGNORECASE,
 )
 _PER_TIME = re.compile(r"(?<=[\d\s])\b1\s*/\s*(?=s|min)")
+_PARTED_SIGN = re.compile(r"(?:^|(?<=[=:;,(\[<])\s*)([+-])\s+(?=[\d.])")
 _SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?!\d)(?:[.,]\d+)?(?![\d.,]*\d)")
 _HAT = r"\s*[*·]?\s*(?:\\?hat)?\{{?[{0}]\u0302?\}}?"
 _UNIT_VECTORS = re.compile(rf"({NUMBER}){_HAT.format('iîI')}\s*([+-])\s*({NUMBER}){_HAT.format('jĵJ')}(?![A-Za-z])")
 _LABELLED = re.compile(
-    rf"[A-Za-z_]*x\s*[=:]\s*({NUMBER})([^;,=:]*)[;,]?\s*[A-Za-z_]*y\s*[=:]\s*({NUMBER})", re.IGNORECASE
+    rf"[A-Za-z_]*([xy])\s*[=:]\s*({NUMBER})([^;,=:]*?)[;,]?\s*[A-Za-z_]*(?!\1)[xy]\s*[=:]\s*({NUMBER})", re.IGNORECASE
 )
 _CELL_PART = rf"({NUMBER})((?:[^\d,;+°→←↑↓-]|(?<=[A-Za-z^])\d)*?)\s*(?:to the |向)?(?:({{}})|({{}}))(?:wards?|方)?"
 _TWO_WAYS = re.compile(
@@ -498,33 +499,28 @@ def read_cell(
     '0.4827 m/s'
     """
     plain = _PER_TIME.sub("/", _RAISED.sub(r"\1", _ABOUT.sub(" ", plain_text(text))))
-    plain = _INCHES.sub(" inch", _joined(plain, symbol))
+    plain = _INCHES.sub(" inch", _joined(_PARTED_SIGN.sub(r"\1", plain), symbol))
     if symbol.is_vector:
         plain = _COMPLEX.sub(r"\1; \2\3", _UNIT_VECTORS.sub(r"\1; \2\3", _PAIR.sub(r"\1; \2", plain)))
         plain = _TWO_WAYS.sub(_two_components, plain)
-        plain = _LABELLED.sub(r"\1; \3 \2", plain)
+        plain = _LABELLED.sub(lambda m: "; ".join((m[2], m[4])[:: 1 if m[1] in "xX" else -1]) + f" {m[3]}", plain)
     plain = re.sub(r"(?:±|\+/-|\+-).*$", "", plain)
     own, rest = way_in(plain, symbol)
     rest = rest.rpartition("=")[2]
     way = own if own.says else way or Way()
     numbers = [match[0].removesuffix(".") for match in _BARE_NUMBER.finditer(rest)]
-    left = _BARE_NUMBER.sub(" ", rest)
-    left = re.sub(r"[;:,()\[\]<>⟨⟩|、。\s]+", " ", _ASIDE.sub(" ", left))
+    left = re.sub(r"[;:,()\[\]<>⟨⟩|、。\s]+", " ", _ASIDE.sub(" ", _BARE_NUMBER.sub(" ", rest)))
     left = " ".join(dict.fromkeys(left.split()))  # both components may bear the unit
     if not symbol.is_vector:
         left = re.sub(r"^k\u0302?$", "", left)  # the unit vector out of the paper
     if not numbers or len(numbers) > (2 if symbol.is_vector else 1):
         raise ValueError(Phrase("cell more numbers" if numbers else "cell no number", cell=text.strip()[:40]))
-    factor = symbol.unit(units).si
-    for said in (left, unit):
-        if said:
-            factor_said = unit_factor(said, symbol, units)
-            if factor_said is None:
-                key = "cell no unit" if is_unit(said, units) else "cell no words"
-                measure = Phrase(f"measure {symbol.measure.name}")
-                raise ValueError(Phrase(key, cell=text.strip()[:60], unit=said[:40], measure=measure))
-            factor = factor_said
-            break
+    said = left or unit
+    factor = unit_factor(said, symbol, units) if said else symbol.unit(units).si
+    if factor is None:
+        key = "cell no unit" if is_unit(said, units) else "cell no words"
+        measure = Phrase(f"measure {symbol.measure.name}")
+        raise ValueError(Phrase(key, cell=text.strip()[:60], unit=said[:40], measure=measure))
     pointed = [_pointed(n, sign) for n in numbers]
     if way.sense:
         pointed = [("-" if way.sense < 0 else "") + n.lstrip("+-") for n in pointed]
@@ -550,11 +546,10 @@ def _joined(text: str, symbol: Symbol) -> str:
     may be two components."""
     text = re.sub(r"(?<=\d)['’](?=\d{3}(?!\d))", "", text)
     match = _SPACED.search(text)
-    if match is None:
+    bracketed = symbol.is_vector and text.startswith(("(", "["))
+    if match is None or bracketed or (symbol.is_vector and re.match(r"\s*(?:°|deg|度)", text[match.end() :])):
         return text
     whole = match[0].replace(" ", "")
-    if symbol.is_vector and (text.startswith(("(", "[")) or not whole.isdigit()):
-        return text
     if symbol.is_vector:
         raise ValueError(Phrase("cell two components", cell=text[:40], number=whole))
     return text[: match.start()] + whole + text[match.end() :]

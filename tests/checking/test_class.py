@@ -66,7 +66,8 @@ def test_a_rate_is_read_as_people_write_it(text, value):
 @pytest.mark.parametrize(
     ("text", "value", "degrees"),
     [
-        ("0.483 m/s", 0.483, None), ("48,3 cm/s", 0.483, None), ("483 ←", 0.483, 180), ("483 向左", 0.483, 180),
+        ("0.483 m/s", 0.483, None), ("0,483 m/s; 180°", 0.483, 180), ("483 168°", 0.483, 168),
+        ("48,3 cm/s", 0.483, None), ("483 ←", 0.483, 180), ("483 向左", 0.483, 180),
         ("483 mm/s, 12° above x", 0.483, 12), ("483 12° above -x", 0.483, 168), ("483 12° below x", 0.483, -12),
         ("483 ∠168.9°", 0.483, 168.9), ("483 168.9°", 0.483, 168.9), ("约 483 毫米/秒", 0.483, None),
         ("483 与x轴成30°", 0.483, 30), ("483 mm s^{-1}, θ = 180°", 0.483, 180), ("483 at an angle of 12°", 0.483, 12),
@@ -84,14 +85,15 @@ def test_a_vector_is_read_with_its_unit_and_direction(text, value, degrees):
 
 @pytest.mark.parametrize(("text", "symbol", "value"), [
     ("22.5 rad/s^2 cw", "alpha_3", -22.5), ("120 牛", "F_1/2", 120), ("0.12 千牛", "F_1/2", 120),
-    ("120 牛·米 顺时针", "M_2", -120), ("120 牛米", "M_2", 120),
+    ("120 牛·米 顺时针", "M_2", -120), ("120 牛米", "M_2", 120), ("ω3 = - 2.82 rad/s", "omega_3", -2.82),
 ])
 def test_units_are_read_before_a_sense_and_in_chinese(text, symbol, value):
     assert value == pytest.approx(read_cell(text, Symbol.parse(symbol), Units()).value)
 
 
 @pytest.mark.parametrize("text", ["v_x = -300 mm/s, v_y = 400 mm/s", "-300 î + 400 ĵ", "(-300|400)", "[-300 400]",
-                                  "(-300,400)", "(-300.0,400.0) mm/s", "<-300,400>"])
+                                  "(-300,400)", "(-300.0,400.0) mm/s", "<-300,400>", "(- 300; + 400)",
+                                  "vx = - 300, vy = + 400", "vy=400 mm/s vx=-300", "-300.0 400.0"])
 def test_two_components_are_read_as_people_write_them(text):
     assert pytest.approx(-0.3 + 0.4j) == read_cell(text, Symbol.parse("v_D"), Units()).value
 
@@ -101,7 +103,7 @@ def test_thousands_are_read_as_people_part_them(text, value):
     assert pytest.approx(value) == read_cell(text, Symbol.parse("v_D"), Units(), sign=";").value
 
 
-@pytest.mark.parametrize("text", ["many", "5 apples", "1 2 3", "nan", "4.8 rad/s", "1 220"])
+@pytest.mark.parametrize("text", ["many", "5 apples", "1 2 3", "nan", "4.8 rad/s", "1 220", "1 220.5"])
 def test_what_is_no_such_value_says_so(text):
     with pytest.raises(ValueError, match=r"is no|more than one|unit|two components"):
         read_cell(text, Symbol.parse("v_D"), Units())
