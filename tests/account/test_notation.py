@@ -5,6 +5,8 @@ import pytest
 from graphkin.account.notation import Notation
 from graphkin.scene.symbol import PointRef, Symbol
 
+pytestmark = pytest.mark.quick
+
 
 @pytest.mark.parametrize(("chinese", "us", "name"), [
     ("v_{61}", "V_{61}", "v_6/1"),

@@ -30,8 +30,6 @@ from tests.mechanisms import random_scene, redriven
 from tests.rolling_linkages import wheel_at_its_rim
 from tests.scenes import FIXED_PIN
 
-pytestmark = pytest.mark.quick
-
 
 def _six_bar():
     sheet = draft(mechanism_of("sixbar-guide-40deg"))

@@ -17,7 +17,6 @@ from graphkin.scene.scene import toml_text
 
 from ..command import run
 
-pytestmark = pytest.mark.quick
 CONTRACT = Path(__file__).parent.parent / "validation" / "contract"
 
 

@@ -19,8 +19,6 @@ from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import LargerGroup
 
-pytestmark = pytest.mark.quick
-
 SIXBAR = "sixbar-guide-40deg"
 
 

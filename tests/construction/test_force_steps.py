@@ -29,7 +29,6 @@ from tests.mechanisms import random_scene
 from tests.scenes import four_bar, slider_crank
 from tests.solver.test_forces import loaded
 
-pytestmark = pytest.mark.quick
 TOOLS = Tools()
 SCENES = ["shaper-forces", "engine-gas-force", "rocker-return-spring", "boom-lifted", BLOCK_ON_A_COMPOUND_HINGE, CHAIN,
           DRIVEN_AGAINST_A_BLOCK, loaded(graphkin.read("double-butterfly").to_dict(), 5)]
