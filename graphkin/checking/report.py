@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import ClassVar
 
@@ -43,14 +43,15 @@ TURNED = 1e-12  # rad, likewise
 class Uncertainty:
     """Standard deviation of a reading (SI; of a vector, the root of the sum over both components).
 
-    ``cause`` is the step that adds most to it, ``share`` its part of the variance,
-    ``first`` the deviation of first order.
+    ``cause`` is the step that adds most to it, ``share`` its part of the variance, ``first`` the deviation of first
+    order, ``moved`` how far each act of the hand moves the reading that errs by one deviation.
     """
 
     deviation: float
     cause: Cause
     share: float
     first: float = 0.0
+    moved: tuple[complex, ...] = field(default=(), repr=False)
 
     @property
     def bound(self) -> float:

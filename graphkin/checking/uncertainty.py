@@ -103,7 +103,7 @@ def predict(
         if shares and symbol.is_vector and value == 0:  # what errs away from nothing is read off the ruler then
             order: Order = "velocity" if symbol.measure.order == 1 else "acceleration"
             shares[reading] = shares.get(reading, 0.0) + (still.reading_error * planned.scales.of(order)) ** 2
-        uncertainty = _summed(symbol, shares, drawn_causes)
+        uncertainty = replace(_summed(symbol, shares, drawn_causes), moved=tuple(row.tolist()))
         if times > BENT:
             uncertainty = replace(uncertainty, deviation=uncertainty.first * times)
         seen = _spread(value, [values[symbol] for values in samples if symbol in values])
@@ -220,11 +220,12 @@ def _sort(symbol: Symbol) -> str:
 def advise(
     planned: Plan, name: str, tools: Tools, readings: Sequence[Reading], predicted: Mapping[Symbol, Uncertainty]
 ) -> Phrase | None:
-    """The worst reading of a drawing and its best remedy, in a sentence; None where no reading is uncertain.
+    """The worst reading of a drawing and its best remedy, in a sentence; None where no reading is uncertain, or no
+    figure helps.
 
     Its gaps are the ``symbol`` of the reading, its standard deviation in ``percent`` of its size, the ``cause`` that
     adds most to it with its ``share`` of the variance (per cent), the ``figure`` to draw twice as large and the
-    ``better`` deviation then (per cent): predicted again with each of the three figures drawn so.
+    ``better`` deviation then (per cent), of each of the three figures drawn so.
     """
     largest: dict[str, float] = {}
     for r in readings:
@@ -232,7 +233,7 @@ def advise(
     parts: dict[Symbol, float] = {}
     for r in readings:
         expected = predicted.get(r.symbol)
-        if expected is None or not 0.0 < expected.deviation < math.inf:
+        if expected is None or not expected.first or not expected.deviation < math.inf:
             continue
         # what is smaller is too small, or nothing that is told from zero, such as velocities at rest
         if abs(r.value) > max(SMALL * largest[_sort(r.symbol)], expected.bound):
@@ -241,16 +242,48 @@ def advise(
         return None
     symbol = max(parts, key=parts.__getitem__)
     relative = parts[symbol]
-    gains = {}
-    for figure in ("length", "velocity", "acceleration"):
-        scales: Scales = replace(planned.scales, **{figure: getattr(planned.scales, figure) / 2})
-        larger = predict(replace(planned, scales=scales), name, tools, together=False)
-        first = predicted[symbol].first
-        gains[figure] = math.inf if symbol not in larger else larger[symbol].first / first if first else 0.0
-    best = min(gains, key=gains.__getitem__)
     expected = predicted[symbol]
+    figures = ("length", "velocity", "acceleration")
+    gains = {figure: _gain(planned, name, tools, symbol, expected.moved, figure) for figure in figures}
+    best = min(gains, key=gains.__getitem__)
+    if gains[best] == math.inf:
+        return None
     return Phrase(
         "advice", symbol=symbol, percent=f"{100 * relative:.2g}", cause=phrase_of(expected.cause),
         share=f"{100 * expected.share:.0f}", figure=Phrase(f"figure {best}"),
         better=f"{100 * relative * gains[best]:.2g}",
     )
+
+
+def _gain(
+    planned: Plan, name: str, tools: Tools, symbol: Symbol, moved: Sequence[complex], figure: str
+) -> float:
+    """The part of the deviation of first order of a reading that is left with a figure drawn twice as large.
+
+    An act that errs by a length in that figure moves the reading half as far then, any other as far as before.  One
+    drawing to either side, in which all acts err in proportion to how far they move it, gives the sum of the products
+    of both effects, and so the squares of the acts that are halved.
+
+    Parameters
+    ----------
+    moved : how far each act moves the reading that errs by one deviation (SI)
+    """
+    scales: Scales = replace(planned.scales, **{figure: getattr(planned.scales, figure) / 2})
+    still = nudged(name, tools)
+    _, read = _drawn_by(replace(planned, scales=scales), still)
+    if read(still) is None or still.acts != len(moved):
+        return math.inf  # at that scale it is drawn otherwise
+    row = np.array(moved)
+    products = 0.0
+    for part, effects in ((np.real, row.real), (np.imag, row.imag)):
+        size = float(np.linalg.norm(effects))
+        if size:
+            errors = {act: error / size for act, error in enumerate(effects.tolist(), 1) if error}
+            hands = (nudged(name, tools, {a: sense * error for a, error in errors.items()}) for sense in (1.0, -1.0))
+            ahead, behind = ((read(hand) or {}).get(symbol) for hand in hands)
+            if ahead is None or behind is None:
+                return math.inf
+            products += size * float(part(ahead - behind)) / 2
+    squares = float((np.abs(row) ** 2).sum())
+    halved = min(max(2 * (squares - products), 0.0), squares)
+    return math.sqrt(1 - 0.75 * halved / squares)

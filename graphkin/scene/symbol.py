@@ -189,11 +189,11 @@ class Symbol:
     other: str = ""
     at: str = ""
     name: str = ""
-    plus: bool = False
+    plus: bool = field(default=False, hash=False)
     turning: bool = field(default=False, compare=False)
-    seen: str = ""
-    axis: str = ""
-    along: bool = False
+    seen: str = field(default="", hash=False)
+    axis: str = field(default="", hash=False)
+    along: bool = field(default=False, hash=False)
 
     @classmethod
     def parse(cls, text: str) -> Symbol:

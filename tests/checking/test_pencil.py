@@ -126,6 +126,21 @@ def test_the_advice_names_a_step_and_a_figure_that_helps():
     assert float(better) < float(percent)
 
 
+@pytest.mark.parametrize("name", ["fourbar-150-500-300-400", SIXBAR, "hydraulic-cylinder"])
+def test_the_deviation_told_of_a_larger_figure_is_that_of_a_drawing_with_it(name):
+    planned = plan(mechanism_of(name))
+    predicted = predict(planned, "pencil", Tools())
+    advice = advise(planned, "pencil", Tools(), read_off(execute(planned)), predicted)
+    assert advice is not None
+    symbol, figure, better = (advice.gaps[name] for name in ("symbol", "figure", "better"))
+    scale = figure.key.removeprefix("figure ")
+    scales = replace(planned.scales, **{scale: getattr(planned.scales, scale) / 2})
+    larger = predict(replace(planned, scales=scales), "pencil", Tools(), together=False)[symbol]
+    size = abs(next(r.value for r in read_off(execute(planned)) if r.symbol == symbol))
+    times = predicted[symbol].deviation / predicted[symbol].first
+    assert 100 * times * larger.first / size == pytest.approx(float(better), rel=0.05)
+
+
 @pytest.mark.parametrize(("part", "told"), [(0.25, True), (0.5, False)])
 def test_no_advice_is_given_on_what_is_not_told_from_nothing(part, told):
     planned = plan(mechanism_of(SIXBAR), find=())

@@ -33,6 +33,7 @@ from graphkin.construction.board.steps import (
     Step,
     Term,
     Vector,
+    changed,
 )
 from graphkin.construction.polygons.equations import (
     add_rates,
@@ -623,7 +624,7 @@ class TrialPolygons:
                 if step.diagram == "mechanism":  # special points met with first
                     plot.do(step)
             steps = [step for step in trial.board.steps if step.diagram == order]
-            strokes = [replace(aid, trial=number) for step in steps for aid in step.auxiliary]
+            strokes = [changed(aid, trial=number) for step in steps for aid in step.auxiliary]
             assumption = self.as_symbols(assumed)
             plot.do(Step("trial", "polygon", order, tuple(strokes), trial=number, rates=assumption, far=far))
         shared = [ref for ref in ends[0] if all(ref in end for end in ends)]

@@ -15,10 +15,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import combinations
 
-from graphkin.construction.board.steps import FarPoint
+from graphkin.construction.board.steps import FarPoint, changed
 from graphkin.construction.polygons.vector_graph import Path, RelativeMotion, Unknown, VectorChain, VectorGraph
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
@@ -75,7 +75,7 @@ class _Search:
 
     def seen(self, edge: RelativeMotion) -> RelativeMotion:
         """An edge with its present unknowns."""
-        return replace(edge, unknown=None) if edge.unknown in self.known else edge
+        return changed(edge, unknown=None) if edge.unknown in self.known else edge
 
     def of(self, link: str) -> list[PointRef]:
         """The points of a link in the graph."""

@@ -31,6 +31,7 @@ from graphkin.construction.board.steps import (
     Stroke,
     Term,
     Vector,
+    changed,
 )
 from graphkin.construction.polygons.vector_graph import VectorChain, node
 from graphkin.construction.position.links_on_paper import PlacedLinks, pushed_by_driver
@@ -197,11 +198,10 @@ class Polygons:
         """The motion of a point, or a part of it, from the pole or from that of another point, by its letters.  Seen
         from a held link a point's own is that relative to the coincident point of it; others bear its name, and all
         accelerations do."""
-        symbol = Symbol(kind, self.label(end), start and self.label(start))
         if self.held and start is None:
             seen = "" if kind == "v" else self.held  # the difference of accelerations holds the term of Coriolis, too
-            return replace(symbol, to=PointRef(end.point, self.held), seen=seen)
-        return replace(symbol, seen=self.held) if self.held else symbol
+            return Symbol(kind, self.label(end), PointRef(end.point, self.held), seen=seen)
+        return Symbol(kind, self.label(end), start and self.label(start), seen=self.held)
 
     def label(self, ref: PointRef) -> PointRef:
         """The name of a node: the block of a pin in a slot has the name of the pin's link."""
@@ -282,7 +282,7 @@ class Polygons:
             self.drawn[step.diagram][vector.symbol] = vector
         of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
         if self.trial or self.held or of_special:
-            vector = replace(vector, aid=True, trial=self.trial)
+            vector = changed(vector, aid=True, trial=self.trial)
         self.do(step, vector)
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
@@ -360,13 +360,13 @@ class Polygons:
         at = self.own_values.found(symbol, 0j, at)
         self.ends[order][ref] = at
         if not self.held:
-            step = replace(image, ref=label, strokes=(Mark(label, at), *image.strokes))
+            step = changed(image, ref=label, strokes=(Mark(label, at), *image.strokes))
         elif image.reason in ("same place", "translation"):
             step = Step("join", "pole to end", order, symbol=symbol)
         else:
             begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in image.refs)
             corners = tuple(corner.point for corner in (*image.refs, label))
-            step = replace(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
+            step = changed(image, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def on(self, ref: PointRef, name: str) -> bool:
@@ -391,7 +391,7 @@ class Polygons:
         ] if order == "acceleration" else [("v", Size("rate", links, names), square, 1j * omega * arm)]
         between = self.label(end), self.label(start)
         return tuple(
-            Term(replace(Symbol(kind, *between), seen=self.held), True, True, size, direction, span=span)
+            Term(Symbol(kind, *between, seen=self.held), True, True, size, direction, span=span)
             for kind, size, direction, span in parts if span
         )
 
