@@ -54,10 +54,14 @@ class Problem:
         }
 
     @property
+    def fact(self) -> Phrase:
+        """What is wrong, without what would be right, as a phrase."""
+        return Phrase("where and what", where=self.where, found=self.found)
+
+    @property
     def sentence(self) -> Phrase:
         """The problem as a phrase."""
-        sentence = Phrase("where and what", where=self.where, found=self.found)
-        return Phrase("and what is wanted", text=sentence, wanted=self.wanted) if self.wanted else sentence
+        return Phrase("and what is wanted", text=self.fact, wanted=self.wanted) if self.wanted else self.fact
 
     def text(self, language: str = "en") -> str:
         """The problem in a sentence of a language."""

@@ -113,8 +113,20 @@ def parallelogram() -> Scene:
     return scene.replace("links.3.length", 150)
 
 
-def test_positions_are_drawn_of_a_crank_that_passes_a_change_point(parallelogram: Scene) -> None:
-    assert "γ" not in words_of(graphkin.draw(parallelogram, figures=["positions"], language="en"))
+@pytest.mark.parametrize(("language", "said"), [
+    ("en", "= 0°, is not drawn (links 2, 3: the RRR group stands at a dead point, its"),
+    ("zh", "= 0°（构件 2、3：RRR 杆组处于死点，其轨迹只相切）。"),
+])
+def test_why_the_least_transmission_angle_of_a_change_point_is_not_drawn_is_said(
+    parallelogram: Scene, language: str, said: str
+) -> None:
+    assert said in words_of(graphkin.draw(parallelogram, figures=["positions"], language=language))
+
+
+def test_a_least_transmission_angle_too_small_for_an_arc_has_its_number(parallelogram: Scene) -> None:
+    scene = parallelogram.replace("links.3.length", 150.001)
+    # arccos((400² + 150.001² - 250²) / (2 · 400 · 150.001))
+    assert "γmin= 0.1654°" in words_of(graphkin.draw(scene, figures=["positions"], language="en"))
 
 
 def test_a_named_position_in_a_change_point_is_called_a_dead_point(parallelogram: Scene) -> None:

@@ -63,6 +63,9 @@ NARROWER = 40  # times that a place is halved in
 NUMBERED, PATH = Stroke(0.18), Stroke(0.25, (4.0, 0.8, 0.5, 0.8))
 
 
+_Least: TypeAlias = tuple[Sheet | Wording, float, tuple[complex, complex, complex]]
+
+
 @dataclass(frozen=True)
 class Shown:
     """The content of the figure, all at one scale.
@@ -70,7 +73,8 @@ class Shown:
     own : the scene's own position
     output, limits : a sliding pair or a link, and its low and high limit position; none where it has none
     numbered : other positions by name
-    least : the position of the least transmission angle of the last group, and the angle (rad)
+    least : the position of the least transmission angle of the last group, or the reason why it is not drawn; the angle
+        (rad); its joint and its two sides
     paths : places (mm) of points of couplers over a turn
     measured : readings of the whole turn (m, rad), by kind ("stroke", "swing", "K", "theta_lag")
     without : the reason for missing limit positions, by the asked stroke or swing
@@ -80,7 +84,7 @@ class Shown:
     output: str
     limits: tuple[Sheet, ...]
     numbered: Mapping[str, Sheet]
-    least: tuple[Sheet, float, tuple[complex, complex, complex]] | None
+    least: _Least | None
     paths: Mapping[str, Sequence[complex]]
     measured: Mapping[str, float]
     marks: tuple[str, ...]
@@ -122,9 +126,8 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
             low, high = turned.limits[output]
             limits = drawn(low.value), drawn(high.value)
         except Unsolvable as stop:  # no whole turn, not of all links, or an output that turns on and on
-            where, found = stop.problems[0].where, stop.problems[0].found
-            other = Phrase("where and what", where=where, found=found)
-            without[asked[0]] = found if where == str(asked[0]) else other
+            problem = stop.problems[0]
+            without[asked[0]] = problem.found if problem.where == str(asked[0]) else problem.fact
             continue
         if low.rest or high.rest:  # the strokes are not parted by two positions of the crank
             marks = tuple(mark for mark in marks if mark != "theta")
@@ -178,9 +181,7 @@ def _paths(structure: Structure, turn: TurnOfCrank, own: Sheet) -> dict[str, lis
     return found
 
 
-def _least(
-    structure: Structure, turn: TurnOfCrank, drawn: Callable[[float], Sheet]
-) -> tuple[Sheet, float, tuple[complex, complex, complex]] | None:
+def _least(structure: Structure, turn: TurnOfCrank, drawn: Callable[[float], Sheet]) -> _Least | None:
     """The position of the least transmission angle of the last group with an inner pin."""
     group = next((g for g in reversed(structure.groups) if isinstance(g, Dyad) and g.inner.turns), None)
     if group is None:
@@ -204,8 +205,8 @@ def _least(
         best = min([best, *(LimitPosition(value, poses) for value, poses in near if poses)], key=gamma)
     try:
         sheet = drawn(best.value)
-    except Unsolvable:  # where the links of the group lie in line
-        return None
+    except Unsolvable as stop:  # where the links of the group lie in line
+        return stop.problems[0].fact, gamma(best), (0j, 0j, 0j)
     inner = group.inner
     pose = sheet.poses[inner.a]
     at = pose.place(structure.links[inner.a].points[inner.point] / sheet.scales.length)
@@ -223,8 +224,8 @@ def positions_figure(page: FigurePage, shown: Shown) -> Drawing:
     limits = [_position(position, letters, strokes.LIMIT, f"limit-{shown.output.replace('/', '-')}-{end}")
               for end, position in zip(("low", "high"), shown.limits, strict=False)]
     least = []
-    if shown.least is not None and "gamma" in shown.marks:
-        least = [_position(shown.least[0], letters, NUMBERED, "least-transmission"), _gamma(shown)]
+    if shown.least is not None and isinstance(shown.least[0], Sheet):
+        least = [_position(shown.least[0], letters, NUMBERED, "least-transmission"), _gamma(*shown.least[1:])]
     paths = Piece({"construction": tuple(
         Group((Polyline(tuple(map(on_page, places)), PATH),), id=f"path-{point}", classes=("path",))
         for point, places in shown.paths.items() if len(places) > 1
@@ -381,21 +382,23 @@ def _travel(shown: Shown) -> Iterator[_Wanted]:
             yield f"swing-{output}", True, _arcs(low.points[PointRef(pivot)], SWING_RADII, begin, begin + swing, words)
 
 
-def _gamma(shown: Shown) -> Piece:
+def _least_words(gamma: float) -> RichText:
+    return sign("γ", "min") + f" = {number(round(math.degrees(gamma), 9), 5)}°"
+
+
+def _gamma(gamma: float, sides: tuple[complex, complex, complex]) -> Piece:
     """The least transmission angle as an arc at its joint."""
-    assert shown.least is not None
-    _, gamma, (joint, first, second) = shown.least
-    if gamma < 0.02:
-        return Piece()
+    joint, first, second = sides
     start, end = cmath.phase(first), cmath.phase(second)
     if abs(math.remainder(end - start, math.tau)) > math.pi / 2:  # the acute one of the two
         start = cmath.phase(-first)
     turn = math.remainder(end - start, math.tau)
-    plate, words = Plate(), rich(sign("γ", "min") + f" = {number(math.degrees(gamma), 5)}°", 2.8)
+    plate, words = Plate(), rich(_least_words(gamma), 2.8)
     lines = [Line.between(joint, joint + 11.0 * cmath.rect(1.0, angle), strokes.DIRECTION)
              for angle in (start, start + turn)]
     arc = angle_dimension(on_page(joint), 8.0, start, start + turn, words)[:2]
-    plate.put("answers", *lines, *arc, id="least-gamma")
+    if gamma > 0.02:  # else the two sides are one line
+        plate.put("answers", *lines, *arc, id="least-gamma")
     plate.name(words, joint + 8.0 * cmath.rect(1.0, start + turn / 2), "label-least-gamma")
     return plate.piece
 
@@ -415,10 +418,10 @@ def _measured_lines(shown: Shown, page: FigurePage) -> list[RichText]:
             if kind in shown.measured and (kind != "K" or "K" in shown.marks)
         ))
         said += page.said("positions of", pair=Neutral(shown.output), values=Neutral(values))
-    for symbol, why in shown.without.items():
-        lines = page.said("no limits", output=page.letters.vector(symbol), reason=why)
-        said += [line.with_words(in_sentence) for line in lines]
-    return said
+    why = [page.said("no limits", output=page.letters.vector(s), reason=reason) for s, reason in shown.without.items()]
+    if shown.least is not None and not isinstance(shown.least[0], Sheet):
+        why.append(page.said("no least angle", angle=_least_words(shown.least[1]), reason=shown.least[0]))
+    return said + [line.with_words(in_sentence) for lines in why for line in lines]
 
 
 FIGURES = (
