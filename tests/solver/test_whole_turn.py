@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
@@ -106,3 +107,11 @@ def test_K_counts_no_dwells(output: str, omega: float) -> None:
         driver_range(mechanism_of_text(DWELLS.format(angle=37, omega=omega), "cam")), Symbol.parse(f"K_{output}")
     )
     assert (pytest.approx(2.0, rel=1e-9), pytest.approx(math.pi / 3, rel=1e-9)) == (found.ways.ratio, found.ways.lag)
+
+
+def test_a_redundant_crank_turns_on_and_on_as_the_others_do() -> None:
+    reach = driver_range(mechanism_of_text(scenes.DOUBLE_PARALLELOGRAM, "scene"))
+    with pytest.raises(Unsolvable, match="link 4 turns on and on"):
+        extremes(reach, Symbol.parse("swing_4"))
+    two = reach.sweep(2)  # half a turn apart: the angles alone do not tell which way round
+    assert pytest.approx(two.angle("3")) == two.angle("4")

@@ -19,7 +19,7 @@ import numpy as np
 
 from graphkin.search import angles_between, last_true, places_between, resolve
 from graphkin.solver.algebra.dyads import TOUCH, DyadSolution
-from graphkin.solver.algebra.pose import Array, Drive
+from graphkin.solver.algebra.pose import Array, Drive, rest
 from graphkin.solver.compiled.engine import (
     SINGULAR,
     ExtendedPrecision,
@@ -30,6 +30,7 @@ from graphkin.solver.compiled.engine import (
     touch,
 )
 from graphkin.solver.drivers import meant_value, working
+from graphkin.solver.redundant import EXACTLY, redundant_poses
 from graphkin.solver.sentences import limit_why
 from graphkin.structure import Dyad, Structure
 from graphkin.structure.assembly import ChangePoint
@@ -217,15 +218,17 @@ class Path:
         return {name: self.turned_of(name, t) for name in self.angles}
 
     def turned_of(self, link: str, t: Array) -> Array:
-        """The angle of a link from the start.  Raises KeyError for a redundant link."""
+        """The angle of a link from the start."""
         return np.asarray(np.interp(t, self.nodes, self.angles[link]) - self.angles[link][0])
 
     @cached_property
     def angles(self) -> dict[str, Array]:
         """The angle of each link at the nodes (rad), without jumps; in (-pi, pi] at the start, also in a dead point."""
-        found: dict[str, Array] = {}
-        for name, pose in self.placed(self.nodes).poses.items():
-            u = np.nan_to_num(np.broadcast_to(pose.u, self.nodes.shape), nan=1.0)
+        found, n = dict[str, Array](), len(self.nodes)
+        poses = {name: pose.spread(n) for name, pose in self.placed(self.nodes).poses.items()}
+        poses[self.structure.scene.frame.name] = rest().still(n)
+        for name, pose in (poses | redundant_poses(self.structure, poses, np.zeros(n, dtype=bool), EXACTLY)).items():
+            u = np.nan_to_num(pose.u, nan=1.0)
             found[name] = np.angle(u[0]) + turning(u)
         return found
 

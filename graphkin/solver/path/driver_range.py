@@ -330,8 +330,8 @@ class DriverRange:
         return {i: np.where(ahead.reshape(-1, *[1] * (f.ndim - 1)), f, other[i]) for i, f in modes.items()}
 
     def turned(self, part: Array) -> Mapping[str, Array]:
-        """The angle of each link that is not redundant from the start (rad), whole turns included, to a few degrees;
-        each is computed when it is asked for."""
+        """The angle of each link from the start (rad), whole turns included, to a few degrees; each is computed when it
+        is asked for."""
         return _Turned(self, part)
 
     def _split(self, part: Array) -> tuple[Array, Array, Array]:
@@ -417,16 +417,8 @@ class DriverRange:
         """The angle of a link in a motion of this range (rad), without jumps over the whole of it, whole turns
         included; in (-pi, pi] at the start."""
         here = np.angle(motion.poses[link].u)
-        since = self._start_angle[link] + motion.turned.get(link, 0.0)
+        since = self.ahead.angles[link][0] + motion.turned.get(link, 0.0)
         return here + 2 * np.pi * np.rint((since - here) / (2 * np.pi))
-
-    @cached_property
-    def _start_angle(self) -> dict[str, float]:
-        start = self.motion(np.zeros(1))
-        return {
-            name: float(self.ahead.angles[name][0] if name in self.ahead.angles else np.nan_to_num(np.angle(pose.u))[0])
-            for name, pose in start.poses.items()
-        }
 
 
 @dataclass(frozen=True, eq=False, repr=False)
