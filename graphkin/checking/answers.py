@@ -155,8 +155,8 @@ def _answers(
             made: dict[Symbol, Cell] = {}
             for i, (symbol, unit) in values.items():
                 if sheet.heads[i] not in silent.get(line, ()):
-                    own = [(k, cells[k]) for k, of in ways.items() if of == symbol and cells[k]]
-                    told_ways = [way for k, way in own if k in by_signs or not is_blank(way)]
+                    own = [(k, cells[k], unit) for k, (of, unit) in ways.items() if of == symbol and cells[k]]
+                    told_ways = [(way, unit) for k, way, unit in own if k in by_signs or not is_blank(way)]
                     made[symbol] = _cell(scene, symbol, unit, cells[i], told_ways, sign)
             return made
 
@@ -170,12 +170,12 @@ def _answers(
     return tuple(answers), tuple(sheet.heads[i] for i in others)
 
 
-def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence[str], sign: str) -> Cell:
-    """A cell with its direction or sense from other columns."""
+def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence[tuple[str, str]], sign: str) -> Cell:
+    """A cell with its direction or sense from other columns, each with the unit of its head."""
     if is_blank(text):
         return None
     try:
-        way = next((read_way(told, symbol) for told in ways), None)
+        way = next((read_way(told, symbol, of_head) for told, of_head in ways), None)
         return read_cell(text, symbol, scene.units, unit, sign, way)
     except ValueError as error:
         return text, error.args[0]
@@ -183,12 +183,12 @@ def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence
 
 def _columns(
     scene: Mechanism, heads: Sequence[str], name: str, problems: list[Problem]
-) -> tuple[dict[int, tuple[Symbol, str]], dict[int, Symbol], dict[Role, int]]:
-    """The columns of values with their units, of directions and senses, and others by role; problems of the heads are
-    added to ``problems``."""
+) -> tuple[dict[int, tuple[Symbol, str]], dict[int, tuple[Symbol, str]], dict[Role, int]]:
+    """The columns of values, of directions and senses, both with their units, and others by role; problems of the heads
+    are added to ``problems``."""
     spelling = spelling_of(scene)
     values: dict[int, tuple[Symbol, str]] = {}
-    ways: dict[int, Symbol] = {}
+    ways: dict[int, tuple[Symbol, str]] = {}
     roles: dict[Role, int] = {}
     for i, head in enumerate(heads):
         plain, where = plain_text(head).lower().strip(), Phrase("column", name=name, head=head)
@@ -202,7 +202,7 @@ def _columns(
         if told and symbol is None and not _QUANTITY.match(text) and i - 1 in values:
             symbol = values[i - 1][0]
         if symbol is not None and told:
-            ways[i] = symbol
+            ways[i] = symbol, unit
         elif symbol is None:
             problems += _unknown(scene, text, where) if _QUANTITY.match(text) else []
         else:

@@ -29,15 +29,19 @@ _SPOKEN = sorted(_WRITTEN, key=len, reverse=True)
 _PART = re.compile(r"\^\{?([a-z])\}?")
 _HEAD_UNIT = re.compile(r"^(.*?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)*)\)|\[([^\[\]]*)\])\s*$")
 _BEHIND_A_LINE = re.compile(r"^(.*?[^/\s])\s*/\s*((?:[^/]|/(?=s|min|\())+)$")
+_SEXAGESIMAL = re.compile(
+    r"([+\-]?)(?<![\d.,])(\d+)\s*(?:°|度)\s*(\d+)\s*['\u2032\u2019分](?!['\u2032\u2019])"
+    r"(?:\s*(\d+)\s*(?:[\"\u201d秒]|['\u2032\u2019]{2}))?"
+)
 _WORDS_ASIDE = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
 
 
 def plain_text(text: str) -> str:
     """Raised and lowered signs, wide ones and typographic minus signs as plain ones: ``ω₃`` is ``ω3``; powers of ten
-    keep an e.
+    keep an e; minutes and seconds of arc are whole.
 
-    >>> plain_text("−1.22×10³ mm/s²"), plain_text("2．82（rad／s）"), plain_text("1.2·$10^{-7}$")
-    ('-1.22e3 mm/s2', '2.82(rad/s)', '1.2e-7')
+    >>> plain_text("−1.22×10³ mm/s²"), plain_text("2．82（rad／s）"), plain_text("1.2·$10^{-7}$"), plain_text("57°54′")
+    ('-1.22e3 mm/s2', '2.82(rad/s)', '1.2e-7', '3474 arcmin')
     """
     raised = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
     powers = re.sub(
@@ -46,7 +50,14 @@ def plain_text(text: str) -> str:
     powers = re.sub(r"\s*[×xX·*⋅]\s*10\s*\^\s*\{?\s*([-+\u2212]?\d+)\s*\}?", r"e\1", powers)
     signs = str.maketrans({"\u2212": "-", "\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u207b": "-",
                            **dict.fromkeys("\u20d7\u0305\u200b\u2060\ufeff"), "º": "°"})
-    return unicodedata.normalize("NFKC", powers.translate(signs)).translate(signs).strip()
+    return _SEXAGESIMAL.sub(_in_parts, unicodedata.normalize("NFKC", powers.translate(signs)).translate(signs).strip())
+
+
+def _in_parts(match: re.Match[str]) -> str:
+    """Degrees and minutes as minutes of arc, with seconds as seconds, so that the last digit tells the rounding."""
+    sign, degrees, minutes, seconds = match.groups()
+    parts = 60 * int(degrees) + int(minutes)
+    return f"{sign}{parts} arcmin" if seconds is None else f"{sign}{60 * parts + int(seconds)} arcsec"
 
 
 @dataclass(frozen=True)
@@ -151,7 +162,8 @@ _UNITS = {
 }
 _LENGTHS = {**LENGTHS, "dm": 0.1, "km": 1e3, "um": 1e-6, "inch": 0.0254, "inches": 0.0254, "\"": 0.0254, "feet": 0.3048}
 _FORCES = {**{force.lower(): newtons for force, newtons in FORCES.items()}, "lb": FORCES["lbf"], "lbs": FORCES["lbf"]}
-_ANGLES = {**dict.fromkeys(("rad", "", "1"), 1.0), **dict.fromkeys(("deg", "°", "degrees"), math.radians(1.0)),
+_ANGLES = {**dict.fromkeys(("rad", "弧度", "", "1"), 1.0), **dict.fromkeys(("deg", "°", "degrees"), math.radians(1.0)),
+           "arcmin": math.radians(1.0) / 60, "arcsec": math.radians(1.0) / 3600,
            **dict.fromkeys(("r", "rev", "turn"), math.tau)}
 _TIMES = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0, "": 1.0}
 _RATE = re.compile(r"(?P<what>[a-z°\"1]*?)(?:/(?P<over>s|sec|min|h)(?P<power>2?)|/(?P<one>s|sec)/(?P<two>s|sec)"
@@ -212,7 +224,9 @@ def is_unit(text: str, units: Units) -> bool:
 
 
 NUMBER = r"[+\-]?(?:\d+(?:[.,]\d+)*[.]?|\.\d+)(?:[eE][+\-]?\d+)?"
-_NUMBERED = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)\s*(?:°|deg(?:rees?)?|度)"
+_UNIT = r"\s*(?:°|deg(?:rees?)?|度|(?P<unit>arcmin|arcsec|rad|弧度)(?:ians?)?(?![A-Za-z]|\s*/))"
+_TURN = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)"
+_NUMBERED = _TURN + _UNIT
 _SIDE = re.compile(
     _NUMBERED + r"\s*(?P<side>above|below|over|under|left of|right of"
     r"|counter-?clockwise from|ccw from|clockwise from|cw from|from)"
@@ -223,14 +237,12 @@ _SIDE_ZH = re.compile(
     r"(?:与)?(?P<sign>[+\-负正])?\s*(?P<axis>[xX])\s*轴?(?P<half>正向|负向|正方向|负方向)?"
     r"(?:(?P<side>上方|下方|以上|以下|之上|之下)|成|的?夹角为?)\s*" + _NUMBERED + "(?:角)?"
 )
-_TURN = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)"
 _ANGLE = re.compile(
-    r"(?:[∠@]|\bat\b|\b(?:at )?(?:an )?(?:angle|direction)\b|方向角?|角度)\s*(?:of\b|[=:为是])?\s*" + _TURN
-    + r"\s*(?:°|deg(?:rees?)?|度)?", re.IGNORECASE,
+    r"(?:[∠@]|\bat\b|\b(?:at )?(?:an )?(?:angle|direction|dir\.?|arg)(?!\w)|方向角?|角度"
+    r"|(?:[θφϕψαβγδ]|\b(?:theta|phi|psi|alpha|beta|gamma|delta))(?=\s*[=:]))\s*(?:of\b|[=:为是])?\s*" + _TURN
+    + rf"(?:{_UNIT})?", re.IGNORECASE,
 )
-_LETTERED = re.compile(r"[θφϕψαβ]\s*[=:]\s*" + _NUMBERED, re.IGNORECASE)
 _DEGREES = re.compile(_NUMBERED + r"(?!\s*/)", re.IGNORECASE)
-_RADIANS = re.compile(r"[,;(∠@]\s*" + _TURN + r"\s*rad\b(?!\s*/)", re.IGNORECASE)
 _ARROWS = {"→": 0.0, "↗": 45.0, "↑": 90.0, "↖": 135.0, "←": 180.0, "↙": -135.0, "↓": -90.0, "↘": -45.0,
            "⇒": 0.0, "⇑": 90.0, "⇐": 180.0, "⇓": -90.0, "➔": 0.0, "➜": 0.0}
 _CLOCKWISE = _said("clockwise", "[↻⟳⥁↷]")
@@ -288,13 +300,14 @@ _UPRIGHT_LINE, _LEVEL_LINE = _said("vertical"), _said("horizontal")
 ROUGH = math.radians(45.0)  # an arrow or a word is meant for all that lies nearest to it
 
 
-def read_way(text: str, symbol: Symbol) -> Way:
-    """The direction in a cell of a column of directions: an angle, an arrow, words.  Raises ValueError."""
+def read_way(text: str, symbol: Symbol, unit: str = "") -> Way:
+    """The direction in a cell of a column of directions: an angle, in the unit of the column's head if it has none of
+    its own, an arrow, words.  Raises ValueError."""
     way, rest = way_in(plain_text(text), symbol)
     if symbol.is_vector and not way.says:
-        bare = rest.strip(" °;,()")
-        if re.fullmatch(NUMBER, bare):
-            return Way(*_degrees(bare))
+        bare = re.fullmatch(_TURN, rest.strip(" °;,()"))
+        if bare is not None:
+            return Way(*_angle(bare, unit if unit in _ANGLES and unit else "deg"))
         raise ValueError(Phrase("cell no direction", cell=text[:40]))
     if not symbol.is_vector and not way.sense:
         if rest.strip() in ("+", "-"):
@@ -303,11 +316,11 @@ def read_way(text: str, symbol: Symbol) -> Way:
     return way
 
 
-def _degrees(text: str) -> tuple[float, float]:
-    """An angle (rad) and half a unit of its last digit."""
-    plain = text.replace(",", ".")
+def _angle(match: re.Match[str], unit: str = "deg") -> tuple[float, float]:
+    """An angle (rad), in the unit behind it if there is one, and half a unit of its last digit."""
+    plain, per = match["deg"].replace(",", "."), _ANGLES[match.groupdict().get("unit") or unit]
     places = len(plain.partition(".")[2])
-    return math.radians(float(plain)), math.radians(0.5 * 10.0**-places)
+    return float(plain) * per, 0.5 * 10.0**-places * per
 
 
 def way_in(text: str, symbol: Symbol) -> tuple[Way, str]:
@@ -354,12 +367,10 @@ def _ways(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
     for match in (_SIDE.search(text), _SIDE_ZH.search(text)):
         if match:
             yield Way(*_from_axis(match)), _without(text, match)
-    for pattern in (_POLAR, _RADIANS, _LETTERED, _ANGLE, _DEGREES):
+    for pattern in (_POLAR, _ANGLE, _DEGREES):
         match = pattern.search(text)
         if match:
-            angle, room = _degrees(match["deg"])
-            per = math.degrees(1.0) if pattern is _RADIANS else 1.0
-            yield Way(angle * per, room * per), _without(text, match)
+            yield Way(*_angle(match)), _without(text, match)
     arrows = [c for c in text if c in _ARROWS]
     if len(arrows) == 1:
         yield Way(math.radians(_ARROWS[arrows[0]]), ROUGH), text.replace(arrows[0], " ")
@@ -387,11 +398,11 @@ def _by_compass_angle(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
             base, to = (_COMPASS[match[key].lower()] for key in ("base", "to"))
             turn = math.sin(math.radians(to - base))
             if abs(turn) > 0.5:
-                angle, room = _degrees(match["deg"])
+                angle, room = _angle(match)
                 yield Way(math.radians(base) + math.copysign(angle, turn), room), _without(text, match)
     match = _BEARING.search(text)
     if match:
-        angle, room = _degrees(match["deg"])
+        angle, room = _angle(match)
         yield Way(math.pi / 2 - angle, room), _without(text, match)
 
 
@@ -415,7 +426,7 @@ def _by_quadrant(text: str) -> tuple[Way, str] | None:
         return None
     rest = _without(text, match)
     sides = [bool(side.search(rest)) for side in _QUARTER]
-    angle, room = _degrees(match["deg"])
+    angle, room = _angle(match)
     if sides[0] == sides[1] or sides[2] == sides[3] or angle > math.pi / 2:
         return None
     angle = math.pi / 2 - angle if _FROM_UPRIGHT.search(rest) else angle
@@ -430,7 +441,7 @@ _LEANS = {"left of": 1, "right of": -1}
 
 def _from_axis(match: re.Match[str]) -> tuple[float, float]:
     """An angle said from an axis: 12° above -x is 168°."""
-    angle, room = _degrees(match["deg"])
+    angle, room = _angle(match)
     side, half = (match["side"] or "above").lower(), match.groupdict().get("half") or ""
     sign = -1 if (match["sign"] or "").strip().lower() in ("-", "negative", "负") or half.startswith("负") else 1
     level = match["axis"].lower() in ("x", "horizontal")

@@ -146,7 +146,33 @@ def test_thousands_parted_by_spaces_are_one_number_with_its_decimals(text, value
     [
         ("NNW", 112.5), ("west-southwest", -157.5), ("northwest", 135.0), ("12° clockwise from -x", 168.0),
         ("12° cw from y", 78.0), ("12° W of N", 102.0), ("30", 30.0),
+        ("0.5 rad", math.degrees(0.5)), ("57°54'", 57.9), ("S 50°30′ E", -39.5), ("57° 54′ 36″", 57.91),
+        ("指向左下", -135.0), ("left and down", -135.0), ("0.5弧度", math.degrees(0.5)),
     ],
 )
 def test_directions_are_read_from_words_and_axes(text, degrees):
     assert pytest.approx(degrees) == math.degrees(read_way(text, Symbol.parse("v_C")).angle)
+
+
+@pytest.mark.parametrize(
+    ("text", "degrees"),
+    [
+        ("483 at 3.316 rad", math.degrees(3.316)), ("483 mm/s, theta=190°", 190.0), ("483 θ=190", 190.0),
+        ("483 mm/s, φ = 3.316 rad", math.degrees(3.316)), ("483 mm/s，指向左下", -135.0), ("483 at -57°54'", -57.9),
+    ],
+)
+def test_a_direction_behind_a_size_is_read_in_its_unit(text, degrees):
+    read = read_cell(text, Symbol.parse("v_D"), Units())
+    assert (0.483, pytest.approx(degrees)) == (read.value, math.degrees(read.way.angle))
+
+
+def test_minutes_of_arc_are_as_fine_as_they_are_written():
+    read = read_cell("-57°54'", Symbol.parse("theta_3"), Units())
+    assert pytest.approx((-57.9, 0.5 / 60)) == (math.degrees(read.value), math.degrees(read.rounding))
+
+
+def test_a_column_of_directions_is_in_the_unit_of_its_head(tmp_path):
+    (right,) = (v["exact"] for v in graphkin.audit(FOUR_BAR, answers={"Li": {"v_C": 1}}).data["values"])
+    way = graphkin.solve(FOUR_BAR).data["positions"][0]["points"]["C@3"]["velocity"]
+    angle = math.atan2(*reversed(way))
+    assert ["right"] == verdicts(tmp_path, f"name,v_C,direction (rad)\nLi,{right},{angle:.4f}\n")
