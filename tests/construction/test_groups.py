@@ -605,12 +605,13 @@ def test_of_assemblies_about_a_vague_sketch_the_nearest_is_drawn() -> None:
         {p: drawn[p] for p in VAGUE["sketch"]}, abs=1e-9)
 
 
-def test_where_the_own_position_is_a_dead_point_it_is_named_whatever_position_is_drawn() -> None:
+@pytest.mark.parametrize(("own", "at"), [(180, 100), (0, -20), (0, 200)])
+def test_where_the_own_position_is_a_dead_point_others_are_drawn_all_the_same(own: int, at: int) -> None:
     parallel = {
         "frame": {"points": {"A": [0, 0], "D": [100, 0]}},
         "links": {"1": {"points": ["A", "B"], "length": 60}, "2": {"points": ["B", "C"], "length": 100},
                   "3": {"points": ["C", "D"], "length": 60}},
-        "driver": {"link": "1", "angle": 180, "omega": 1},
+        "driver": {"link": "1", "angle": own, "omega": 1},
+        "sketch": {"C": [100 + 60 * math.cos(math.radians(own)), -20]},  # tells nothing there
     }
-    with pytest.raises(Unsolvable, match="this is the scene's own position, from which others are drawn"):
-        graphkin.check(parallel, at=100)
+    assert graphkin.check(parallel, at=at).ok

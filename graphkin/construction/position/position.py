@@ -61,6 +61,8 @@ TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.01  # of the size: so near to a sketch no nearer assembly is looked for
 STEP, LONG_STEP = math.radians(2.0), math.radians(8.0)  # of the driver at most, with larger groups and without
+# Of a driver's span: so far beside a dead point others are followed from; of that: where its groups are told by a sine.
+BESIDE, HAIR, TOUCHING = 1e-4, 1e-3, 2e-3
 SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the size of the mechanism
 
 
@@ -230,16 +232,28 @@ def assembly_at(
 def poses_at(placed: PlacedElements, values: Mapping[str, float]) -> Poses:
     """The poses of some elements' links at driver values (rad, m), on paper of the mechanism's size, followed from the
     scene's own position; errors as for `assembly_at`."""
-    start = {d.key: d.values[0] for d in placed.structure.scene.drivers}
+    drivers = placed.structure.scene.drivers
+    start = {d.key: d.values[0] for d in drivers}
     try:
         poses = own_position(placed.at_start).poses
-    except Unsolvable as at_start:
-        if at_start.status != "dead point" or values == start:
+    except Unsolvable as stop:
+        if stop.status != "dead point" or values == start:
             raise
-        (problem, *_) = at_start.problems
-        problem = replace(problem, wanted=Phrase("move the own position off"))
-        raise Unsolvable("dead point", problem) from None
-    return moved_to(placed, start, values, poses)
+        at_start = stop
+    else:
+        return moved_to(placed, start, values, poses)
+    # from beside the dead point, on the side to which the motion goes
+    for end in ways(drivers, [*start.values()], [values[key] for key in start], placed.structure.rolls):
+        way = {d.key: to - start[d.key] for d, to in zip(drivers, end, strict=True)}
+        length = max(abs(way[d.key]) / d.span(placed.structure.scene.size) for d in drivers)
+        way = {key: value * min(0.5, BESIDE / length) for key, value in way.items()} if length else way
+        try:
+            poses = own_position(placed.at_start, beside=way).poses
+        except Unsolvable:
+            continue
+        return moved_to(placed, {key: value + way[key] for key, value in start.items()}, values, poses)
+    (problem, *_) = at_start.problems
+    raise Unsolvable("dead point", replace(problem, wanted=Phrase("move the own position off")))
 
 
 def cams_in_place(
@@ -330,24 +344,44 @@ def found_near(
 
 
 def own_position(
-    placed: PlacedElements, of_group: Callable[[PlacedLinks, LargerGroup], Poses] | None = None
+    placed: PlacedElements, of_group: Callable[[PlacedLinks, LargerGroup], Poses] | None = None,
+    beside: Mapping[str, float] | None = None,
 ) -> PlacedLinks:
-    """The links of some elements at the scene's own driver values, on paper of its size; ``of_group`` chooses the
-    assembly of a larger group, by trial positions if None.  Raises as `meeting` and `pick`."""
+    """The links of some elements at the scene's own driver values, on paper of its size.  Raises as `meeting` and
+    `pick`.
+
+    Parameters
+    ----------
+    of_group : chooses the assembly of a larger group, by trial positions if None
+    beside : the way (rad, m) of each driver from a dead point to a place beside it, where the links are placed as the
+        own position has them, and the group at the dead point by the rule
+    """
     structure, of_group = placed.structure, of_group or partial(_group_by_sketch, placed)
-    values = {d.key: d.values[0] for d in structure.scene.drivers}
-    paper = start_board(structure, 1.0 / structure.scene.size, values)
     wanted = {n for element in placed.elements for n in element.members}
-
-    def choose(_: int, element: Dyad | LargerGroup) -> Poses:
-        if isinstance(element, LargerGroup):
-            return of_group(paper, element)
-        poses = meeting(structure, paper, element).poses
-        return poses[pick(structure.scene, element.links, [paper.fresh(places) for places in poses], 0)]
-
     here = [element for element in structure.elements if wanted.intersection(element.members)]
-    assembled(paper, here, choose, lambda driver: driver.start)
-    return paper
+    branches, way = dict[int, int](), beside or {}
+
+    def at(part: float) -> PlacedLinks:
+        values = {d.key: d.values[0] + part * way.get(d.key, 0.0) for d in structure.scene.drivers}
+        paper = start_board(structure, 1.0 / structure.scene.size, values)
+
+        def choose(i: int, element: Dyad | LargerGroup) -> Poses:
+            if isinstance(element, LargerGroup):
+                return of_group(paper, element)
+            met = meet(paper, element)
+            if part < 1.0 and way and met.poses and met.sine < TOUCHING:
+                branches[i] = 0
+                return met.poses[0]
+            poses = meeting(structure, paper, element).poses
+            if i not in branches:
+                branches[i] = pick(structure.scene, element.links, [paper.fresh(places) for places in poses], 0)
+            return poses[branches[i]]
+
+        assembled(paper, here, choose, lambda driver: driver.start)
+        return paper
+
+    paper = at(HAIR)
+    return at(1.0) if way else paper
 
 
 def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGroup) -> Poses:

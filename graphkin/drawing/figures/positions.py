@@ -47,7 +47,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, Structure
 from graphkin.structure.transmission import joint_of_dyad
-from graphkin.words import Neutral, Phrase, Wording
+from graphkin.words import Neutral, Wording
 from graphkin.words.symbols import RichText, sign, spaced
 from graphkin.words.written import in_sentence
 

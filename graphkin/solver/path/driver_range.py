@@ -418,7 +418,7 @@ class DriverRange:
         included; in (-pi, pi] at the start."""
         here = np.angle(motion.poses[link].u)
         since = self.ahead.angles[link][0] + motion.turned.get(link, 0.0)
-        return here + 2 * np.pi * np.rint((since - here) / (2 * np.pi))
+        return np.asarray(here + 2 * np.pi * np.rint((since - here) / (2 * np.pi)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
