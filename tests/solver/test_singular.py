@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from graphkin.scene import mechanism_of_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve
 from tests import scenes
 
@@ -137,6 +137,19 @@ omega = 1.5
 def test_parallel_guides_that_lie_apart_are_no_dead_point() -> None:
     motion = at(APART, 90)
     assert ("not assembled", True) == (motion.status[0], "meet nowhere" in motion.why[0])
+
+
+@pytest.mark.parametrize("tilt", [0, 30])
+def test_a_slot_parallel_to_its_own_guide_is_never_assembled(tilt: float) -> None:
+    yoke = {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"x": {"through": [0, 0], "angle": tilt}}},
+        "links": {"1": {"points": ["A", "B"], "length": 50}, "2": {"points": ["B"], "on": "3.s"},
+                  "3": {"on": "0.x", "guides": {"s": {"through": [0, 0], "angle": 0}}}},
+        "driver": {"link": "1", "angle": 50, "omega": 1},
+    }
+    motion = solve(mechanism_of(yoke))
+    said = "links 2, 3 have guides that are parallel in every position: they meet nowhere, or all along"
+    assert ("not assembled", said) == (motion.status[0], motion.why[0])
 
 
 def test_parallel_guides_in_one_line_are_a_dead_point() -> None:

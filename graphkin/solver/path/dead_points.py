@@ -190,19 +190,24 @@ def _beyond_limits(
 
 def _apart(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Wording:
     """The sentence on a dyad whose guides are parallel and not collinear, so that they meet nowhere and the dyad is far
-    away just beyond; "" for another dyad."""
+    away just beyond, or parallel wherever the drivers stand; "" for another dyad."""
     group = structure.elements[i]
     if not (isinstance(group, Dyad) and group.is_two_lines):
         return ""
-    size = structure.scene.size
-    for k, driver in enumerate(structure.scene.drivers):
-        nudged = values[None].copy()
-        nudged[0, k] += HAIR * driver.span(size)
-        solved = positions(structure, Drive.at_unit_rates(nudged), modes, i + 1, rates=False).groups[i]
+    size, parallel = structure.scene.size, True
+    for column, driver in enumerate(structure.scene.drivers):
+        nudged = np.repeat(values[None], 2, axis=0)
+        nudged[:, column] += np.array([HAIR, BESIDE]) * driver.span(size)
+        both = {j: np.repeat(f, 2, axis=0) for j, f in modes.items()} | {i: np.ones(2)}
+        before, state = (positions(structure, Drive.at_unit_rates(nudged), both, k, rates=False) for k in (i, i + 1))
+        solved, known = state.groups[i], [before.poses[name].u for name in group.outside]
         assert isinstance(solved, DyadSolution)
-        if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
+        # of guides that do not turn at all the sine is no number
+        parallel &= bool(np.all(~(np.abs(solved.sine) >= SINGULAR)) and all(np.isfinite(u).all() for u in known))
+        far = max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size
+        if far and not parallel:
             return Phrase("have parallel guides that lie apart", links=group.named)
-    return ""
+    return Phrase("have parallel guides everywhere", links=group.named) if parallel else ""
 
 
 def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> Phrase:
