@@ -117,7 +117,7 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     find = given.question.find
     all_asked = Phrase("explained asked all with forces" if given.loading else "explained asked all")
     told: dict[str, Iterable[Phrase]] = {
-        "units": _units(given), "links": _links(given), "joints": _joints(given), "mobility": [_mobility(given)],
+        "units": _units(given), "links": _links(given), "joints": _joints(given), "mobility": [mobility_said(given)],
         "drivers": [_driver(given, driver) for driver in given.drivers], "groups": groups, "loads": _loads(given),
         "asked": [Phrase("explained asked for", quantities=listed(find)) if find else all_asked],
     }
@@ -206,7 +206,8 @@ def _joints(scene: Mechanism) -> Iterator[Phrase]:
     yield from (told(pair, "explained") for pair in scene.pairs)
 
 
-def _mobility(scene: Mechanism) -> Phrase:
+def mobility_said(scene: Mechanism) -> Phrase:
+    """The mobility with its numbers, beside the number of drivers."""
     count = mobility_of(scene)
     left = count.value - len(scene.drivers)
     key = "explained count" if left == 0 else "explained undetermined" if left > 0 else "explained miscount"

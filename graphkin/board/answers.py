@@ -22,6 +22,7 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from graphkin.api.arguments import known_words, placed
+from graphkin.api.results import Result
 from graphkin.board import building, pictures
 from graphkin.board.building import pulled
 from graphkin.board.pictures import FigureOptions
@@ -30,12 +31,11 @@ from graphkin.board.shelf import Shelf, mark_of
 from graphkin.construction.board.scales import Scales
 from graphkin.drawing.figures import figure_kinds
 from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_you_mean
-from graphkin.files import Json
+from graphkin.files import Json, Tables
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import LARGEST_FILE, NEW, new_scene, parsed, put, resolved, safe_name
 from graphkin.scene.tables import as_sentence
 from graphkin.solver import solved_here, structure_of
-from graphkin.structure import mobility_of
 from graphkin.words import LANGUAGES, Phrase, area, say, word
 
 LINK = "graphkin:"
@@ -87,15 +87,19 @@ def _problems(shelf: Shelf, error: GraphkinError, message: object) -> Answer:
     told: Answer = {"problems": problems, "kind": type(error).__name__}
     with suppress(GraphkinError):  # of a scene that does not move yet the sketch and the mobility
         made = parsed(text)
-        told |= {"draft": building.draft(made), "form": made}
+        told |= {"draft": building.draft(made), "form": _form(made)}
         trial = building.trial_driver(made)
         made = pictures.with_own_files(parsed(text), shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
         language = given.get("language")
         spoken = language if language in LANGUAGES else scene.question.sheet.language
-        told["mobility"] = pictures.mobility_text(scene, spoken, 0 if trial else len(scene.drivers))
-        told["freedom"] = mobility_of(scene).value
+        told["mobility"] = pictures.mobility_text(scene, spoken, trial is not None)
     return told
+
+
+def _form(made: Tables) -> Any:
+    """The tables of a text for the form of the page; what JSON does not know (inf, a date) is a text."""
+    return json.loads(json.dumps(made, default=str), parse_constant=str)
 
 
 # the questions
@@ -189,7 +193,7 @@ def _refused(key: str, value: object) -> Problem:
 
 def _show(shelf: Shelf, asked: Message) -> Answer:
     shown = pictures.shown(asked.scene(shelf), asked.at, asked.options, asked.quick)
-    return shown if asked.quick else {**shown, "form": parsed(asked.text)}
+    return shown if asked.quick else {**shown, "form": _form(parsed(asked.text))}
 
 
 def _pull(shelf: Shelf, asked: Message) -> Answer:
@@ -268,15 +272,17 @@ def _thumbnail(shelf: Shelf, asked: Message) -> Answer:
 def _diagrams(shelf: Shelf, asked: Message) -> Answer:
     from graphkin.api.sweep import sweep
 
-    swept = sweep(asked.scene(shelf), find=asked.find or None, language=asked.options.language)
-    return {"figures": {name: figure.content("svg").decode() for name, figure in islice(swept.figures.items(), 12)}}
+    return _charts(sweep(asked.scene(shelf), find=asked.find or None, language=asked.options.language))
 
 
 def _race(shelf: Shelf, asked: Message) -> Answer:
     from graphkin.api.studied import speed_accuracy
 
-    charts = speed_accuracy(asked.scene(shelf), repeats=1, language=asked.options.language)
-    return {"figures": {name: figure.content("svg").decode() for name, figure in charts.figures.items()}}
+    return _charts(speed_accuracy(asked.scene(shelf), repeats=1, language=asked.options.language))
+
+
+def _charts(made: Result) -> Answer:
+    return {"figures": {name: figure.content("svg").decode() for name, figure in islice(made.figures.items(), 12)}}
 
 
 _FIGURES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", "dxf": "image/vnd.dxf"}
@@ -289,12 +295,15 @@ def _export(shelf: Shelf, asked: Message) -> Answer:
         drawn, _ = pictures.drawn_at(structure_of(scene), asked.at, options)
         if not drawn.figures:
             raise CallError.of("figure", "there is nothing to draw", "choose another figure")
-        figure_name, figure = next(iter(drawn.figures.items()))
-        return _file(f"{scene.name}-{figure_name}.{kind}", _FIGURES[kind], figure.content(kind))
+        pages = {f"{scene.name}-{name}.{kind}": page for name, page in drawn.figures.items()}
+        first = next(iter(pages))
+        if len(pages) == 1 or kind == "pdf":  # which holds all pages
+            return _file(first, _FIGURES[kind], pages[first].content(kind))
+        return _packed(f"{first[:-4]}.zip", {name: page.content(kind) for name, page in pages.items()})
     if kind == "scene":
         return _file(f"{scene.name}.toml", "application/toml", asked.text.encode())
     if kind in ("papers", "variants"):
-        return _file(f"{scene.name}-{kind}.zip", "application/zip", _papers(scene, asked, options))
+        return _packed(f"{scene.name}-{kind}.zip", _papers(scene, asked, options))
     raise CallError.of("kind", f'"{kind!s:.40}"', "known here svg pdf png dxf papers variants")
 
 
@@ -302,26 +311,33 @@ def _file(name: str, media: str, content: bytes) -> Answer:
     return {"name": name, "type": media, "data": base64.b64encode(content).decode()}
 
 
-def _papers(scene: Mechanism, asked: Message, options: FigureOptions) -> bytes:
-    """The papers of a scene, or a set of its variants, packed."""
+def _packed(name: str, files: Mapping[str, bytes]) -> Answer:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        for path, content in files.items():
+            archive.writestr(path, content)
+    return _file(name, "application/zip", packed.getvalue())
+
+
+def _papers(scene: Mechanism, asked: Message, options: FigureOptions) -> dict[str, bytes]:
+    """The papers of a scene, or a set of its variants, by name.  Raises CallError where no variant could be made."""
     from graphkin.api.classroom.handouts import handout, papers_of
     from graphkin.api.classroom.problem_sets import problem_set
     from graphkin.table import have
 
     formats = ("html", "pdf") if have("typst") else ("html",)
     spoken, school = options.language, options.convention
-    packed = io.BytesIO()
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
         if asked.kind == "papers":
             handout(scene, out=folder, at=asked.at, formats=formats, language=spoken, convention=school)
         else:
             render = papers_of(scene, formats, spoken, school)
-            problem_set(scene, variants=asked.count, seed=options.seed, out=folder, render=render)
-        with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-            for path in sorted(p for p in folder.rglob("*") if p.is_file() and not p.name.startswith(".")):
-                archive.write(path, path.relative_to(folder).as_posix())
-    return packed.getvalue()
+            made = problem_set(scene, variants=asked.count, seed=options.seed, out=folder, render=render)
+            if not made.answers:
+                raise CallError(*(Problem(variant.name, variant.why) for variant in made.failures))
+        files = sorted(p for p in folder.rglob("*") if p.is_file() and not p.name.startswith("."))
+        return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 
 
 def scene_link(text: str) -> str:

@@ -12,7 +12,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Mapping
 
-from graphkin.board.scene_text import changed, frame_in, list_in, points_in, table_in
+from graphkin.board.scene_text import changed, frame_in, names_in, points_in, table_in
 from graphkin.errors import CallError, did_you_mean
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross, degrees, direction, dot
@@ -63,7 +63,7 @@ def draft(made: Tables) -> OwnTables:
     links = {}
     for name, link in table_in(made, "links").items():
         if isinstance(link, Mapping):
-            ends = [p for p in (*list_in(link.get("points")), *table_in(link, "at")) if p in points]
+            ends = [p for p in (*names_in(link.get("points")), *table_in(link, "at")) if p in points]
             links[str(name)] = {"points": ends, "block": "on" in link and len(ends) < 2}
     guides = []
     for guide in table_in(table_in(made, "frame"), "guides").values():
@@ -113,19 +113,18 @@ def _round(value: float) -> float:
     return float(f"{value:.6g}") + 0.0
 
 
-def _end(made: Tables, step: Step, key: str, changes: OwnTables) -> tuple[str, list[float]]:
-    """A point of the mechanism, or a new one at a place, whose sketch is written."""
+def _end(made: Tables, step: Step, key: str, before: OwnTables | None = None) -> tuple[str, list[float], OwnTables]:
+    """A point of the mechanism, or a new one at a place, beside those of changes before, with its sketch."""
     value = step.get(key)
     if isinstance(value, str):
         spots = draft(made)["points"]
         if value not in spots:
             shown = value[:40]
             raise CallError.of(Phrase("point", point=shown), "has no place in the sketch", did_you_mean(shown, spots))
-        return value, [float(x) for x in spots[value]]
+        return value, [float(x) for x in spots[value]], {}
     place = _at(step, key)
-    name = _free_letter(made, changes)
-    changes[f"sketch.{name}"] = place
-    return name, place
+    name = _free_letter(made, before or {})
+    return name, place, {f"sketch.{name}": place}
 
 
 def _link_of(made: Tables, step: Step, key: str) -> str:
@@ -141,24 +140,23 @@ def _pivot(made: Tables, step: Step) -> OwnTables:
 
 def _fix(made: Tables, step: Step) -> OwnTables:
     """A point that moved becomes a pivot of the frame."""
-    changes: OwnTables = {}
-    name, place = _end(made, step, "point", changes)
-    return {**changes, f"frame.points.{name}": place, f"sketch.{name}": None}
+    name, place, new = _end(made, step, "point")
+    return {**new, f"frame.points.{name}": place, f"sketch.{name}": None}
 
 
 def _bar(made: Tables, step: Step) -> OwnTables:
-    changes: OwnTables = {}
-    (one, p), (other, q) = _end(made, step, "from", changes), _end(made, step, "to", changes)
+    one, p, begun = _end(made, step, "from")
+    other, q, ended = _end(made, step, "to", begun)
     long = math.dist(p, q)
     if one == other or long == 0.0:
         raise CallError.of("bar", "begins and ends in the same place", "pull it to another place")
-    return {f"links.{_next_link(made)}": {"points": [one, other], "length": _round(long)}, **changes}
+    return {f"links.{_next_link(made)}": {"points": [one, other], "length": _round(long)}, **begun, **ended}
 
 
 def _point_on(made: Tables, step: Step) -> OwnTables:
     """A further point of a link, in its own axes."""
     name, place = _link_of(made, step, "link"), _at(step, "at")
-    ends = list_in(made["links"][name].get("points"))
+    ends = names_in(table_in(made["links"], name).get("points"))
     spots = draft(made)["points"]
     if len(ends) < 2 or any(p not in spots for p in ends):
         raise CallError.of(Phrase("link of name", name=name), "has no axis of its own", "give it two points first")
@@ -170,29 +168,26 @@ def _point_on(made: Tables, step: Step) -> OwnTables:
 
 def _slider(made: Tables, step: Step) -> OwnTables:
     """A block with a pin, on a new guide of the frame through its place."""
-    changes: OwnTables = {}
-    point, place = _end(made, step, "point", changes)
+    point, place, new = _end(made, step, "point")
     fixed, _ = frame_in(made)
     guides = table_in(table_in(made, "frame"), "guides")
     guide = next(name for name in ("h", *(f"h{n}" for n in range(2, 1000))) if name not in guides)
     return {
         f"frame.guides.{guide}": {"through": place, "angle": _round(_number(step, "angle", 0.0))},
-        f"links.{_next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **changes,
+        f"links.{_next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **new,
     }
 
 
 def _block(made: Tables, step: Step) -> OwnTables:
     """A block with a pin that slides along a link's own axis."""
-    changes: OwnTables = {}
-    point, _ = _end(made, step, "point", changes)
-    return {f"links.{_next_link(made)}": {"points": [point], "on": _link_of(made, step, "link")}, **changes}
+    point, _, new = _end(made, step, "point")
+    return {f"links.{_next_link(made)}": {"points": [point], "on": _link_of(made, step, "link")}, **new}
 
 
 def _slotted(made: Tables, step: Step) -> OwnTables:
     """A bar of no fixed length from a point, with a slot along its axis."""
-    changes: OwnTables = {}
-    point, _ = _end(made, step, "point", changes)
-    return {f"links.{_next_link(made)}": {"points": [point]}, **changes}
+    point, _, new = _end(made, step, "point")
+    return {f"links.{_next_link(made)}": {"points": [point]}, **new}
 
 
 def _pin(made: Tables, step: Step) -> OwnTables:
@@ -207,8 +202,8 @@ def _pin(made: Tables, step: Step) -> OwnTables:
 def _drive(made: Tables, step: Step) -> OwnTables:
     """A driven link: its angle is that of the sketch."""
     name = _link_of(made, step, "link")
-    link, spots = made["links"][name], draft(made)["points"]
-    ends = [p for p in list_in(link.get("points")) if p in spots]
+    link, spots = table_in(made["links"], name), draft(made)["points"]
+    ends = [p for p in names_in(link.get("points")) if p in spots]
     fixed, _ = frame_in(made)
     if len(ends) < 2:
         on = link.get("on")
@@ -234,7 +229,7 @@ def _delete(made: Tables, step: Step) -> OwnTables:
         point = str(step.get("point", ""))
         if point not in points_in(made):
             raise CallError.of(Phrase("point", point=point[:40]), "there is no such point")
-        gone = {n for n in links if point in list_in(table_in(links, n).get("points"))}
+        gone = {n for n in links if point in names_in(table_in(links, n).get("points"))}
         changes |= {f"links.{n}.at.{point}": None for n, link in links.items() if point in table_in(link, "at")}
         if point in frame_in(made)[1]:
             changes[f"frame.points.{point}"] = None
@@ -246,7 +241,7 @@ def _delete(made: Tables, step: Step) -> OwnTables:
             if name not in kept or of or name == step.get("point"):
                 changes[f"{table}.{name}"] = None
     driver = made.get("driver")
-    if isinstance(driver, Mapping) and gone & {driver.get("link"), str(driver.get("slide", "")).split("/")[0]}:
+    if isinstance(driver, Mapping) and gone & {str(driver.get("link")), str(driver.get("slide", "")).split("/")[0]}:
         changes["driver"] = None
     return changes
 

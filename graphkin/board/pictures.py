@@ -18,6 +18,7 @@ from graphkin.account.voice import Account
 from graphkin.api.arguments import driver_values, hand_of, placed
 from graphkin.api.checked import checked
 from graphkin.api.drawn import Drawn, drawn_figure, known_figures
+from graphkin.api.explained import mobility_said
 from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.building import movable
 from graphkin.construction import Plan, execute, plan, plan_with_forces
@@ -34,7 +35,7 @@ from graphkin.scene.scene import naming_files, parsed, resolved
 from graphkin.scene.symbol import asked_here
 from graphkin.solver import Motion, driver_range, solved_here
 from graphkin.solver.path.driver_range import DriverRange
-from graphkin.structure import Structure, mobility_of
+from graphkin.structure import Structure
 from graphkin.words import Phrase, Wording, languages, say
 
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
@@ -78,12 +79,10 @@ def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
     return made
 
 
-def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -> str:
-    """The mobility with its numbers, in the words of all commands; ``drivers`` where the scene's own are a trial."""
-    mobility, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
-    numbers = {"links": mobility.links, "lower": mobility.lower, "higher": mobility.higher, "mobility": mobility.value}
-    key = "page freedom" if not count else "explained count" if mobility.value == count else "explained miscount"
-    return plain_said(Phrase(key, **numbers, drivers=count), language)
+def mobility_text(scene: Mechanism, language: str, trial: bool = False) -> str:
+    """The mobility with its numbers, in the words of all commands; of a ``trial`` driver is said that there is none."""
+    said = mobility_said(scene)
+    return plain_said(Phrase("page freedom", **said.gaps) if trial else said, language)
 
 
 _analysed = lru_cache(maxsize=16)(solver.structure_of)
@@ -198,9 +197,10 @@ def _in_motion(structure: Structure, at: Mapping[str, float] | None, options: Fi
         if _is_fast(planned):  # beside a limit of the motion the solver has the last word, in fifty digits
             solved_here(structure, values, asked_here(scene.question.find))
     except Unsolvable as error:
+        stop = _exactly(structure, values, error)
         if not at or len(scene.drivers) != 1:
-            raise
-        said = _said(_exactly(structure, values, error), _spoken(options.language, scene))
+            raise stop from None
+        said = _said(stop, _spoken(options.language, scene))
         planned = _plan(structure, driver_values(scene, _last(scene, at)))
     structure.kept["last drawing"] = planned
     sheet = execute(replace(planned, scales=options.scales or planned.scales))

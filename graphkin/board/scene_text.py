@@ -268,13 +268,13 @@ def frame_in(made: Tables) -> tuple[str, OwnTables]:
     return str(frame.get("name", "0")), table_in(frame, "points")
 
 
-def list_in(value: object) -> list[object]:
-    return list(value) if isinstance(value, list) else []
+def names_in(value: object) -> list[str]:
+    return [str(name) for name in value] if isinstance(value, list) else []
 
 
 def points_in(made: Tables) -> set[str]:
     points = {*table_in(made, "sketch"), *table_in(made, "drawn"), *table_in(made, "pins"), *frame_in(made)[1]}
     for link in table_in(made, "links").values():
         if isinstance(link, Mapping):
-            points |= {str(p) for p in (*list_in(link.get("points")), *table_in(link, "at"))}
+            points |= {*names_in(link.get("points")), *table_in(link, "at")}
     return points

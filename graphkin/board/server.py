@@ -199,9 +199,9 @@ def serve(
 async def _run(app: Starlette, listening: socket.socket, ready: Callable[[], None]) -> None:
     import uvicorn
 
-    config = uvicorn.Config(
-        app, log_level="error", access_log=False, ws="websockets-sansio", ws_max_size=LARGEST_MESSAGE, lifespan="off",
-        server_header=False, timeout_graceful_shutdown=1, ws_per_message_deflate=False,
+    config = uvicorn.Config(  # an answer that is cut off by Ctrl-C is no error
+        app, log_level="critical", access_log=False, ws="websockets-sansio", ws_max_size=LARGEST_MESSAGE,
+        lifespan="off", server_header=False, timeout_graceful_shutdown=1, ws_per_message_deflate=False,
     )
 
     class Server(uvicorn.Server):
@@ -262,6 +262,6 @@ def _widget_class() -> Callable[[Shelf], AnyWidget]:
             self.on_msg(self._asked)
 
         def _asked(self, widget: object, content: object, buffers: object) -> None:
-            self.send(answer(self._shelf, content))
+            self.send(json.loads(_answered(self._shelf, json.dumps(content))))
 
     return Board

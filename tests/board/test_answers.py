@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tomllib
 from base64 import b64decode
 from io import BytesIO
@@ -10,11 +11,13 @@ from zipfile import ZipFile
 import pytest
 
 import graphkin
+from graphkin.api.classroom.problem_sets import ProblemSet
 from graphkin.board.answers import QUESTIONS, answer, scene_link, text_of_link
 from graphkin.board.pictures import FigureOptions, shown
 from graphkin.board.scene_text import changed, line_of, places
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.errors import CallError, Problem
+from graphkin.papers.variants import Variant
 from graphkin.scene.scene import library_text, mechanism_of
 from graphkin.words import Phrase, Wording, links_named
 
@@ -296,9 +299,25 @@ def test_a_slider_crank_and_a_quick_return_are_built() -> None:
 def test_what_is_built_so_far_shows_its_mobility_and_its_sketch() -> None:
     text = built({"what": "pivot", "at": [0, 0]}, {"what": "bar", "from": "A", "to": [20, 30]})
     found = answer(Shelf(), {"do": "show", "text": text})
-    assert (False, 1) == (found["ok"], found["freedom"])
+    assert not found["ok"]
     assert {"A": [0.0, 0.0], "B": [20.0, 30.0]} == found["draft"]["points"]
     assert "F = 3·1 − 2·1 − 0 = 1; nothing drives it yet" == found["mobility"]
+
+
+def test_what_too_few_drivers_move_is_told_as_undetermined() -> None:
+    text = built(
+        {"what": "pivot", "at": [0, 0]}, {"what": "bar", "from": "A", "to": [20, 30]},
+        {"what": "bar", "from": "B", "to": [60, 30]}, {"what": "drive", "link": "1"},
+    )
+    told = answer(Shelf(), {"do": "show", "text": text})["mobility"]
+    assert told.endswith("= 2, but the number of drivers is 1: it moves, but its motion is not determined")
+
+
+@pytest.mark.parametrize("wrong", ['points = [["A", "B"], "C"]', "length = inf", "length = 2026-12-01"])
+def test_what_no_name_or_number_of_json_can_be_is_told_as_any_other_error(wrong: str) -> None:
+    found = answer(DESK, {"do": "show", "text": SIXBAR.replace("length = 0.34", f"{wrong} #")})
+    assert not found["ok"]
+    json.dumps(found, allow_nan=False)
 
 
 def test_a_bar_between_two_new_points_names_them_apart() -> None:
@@ -391,6 +410,20 @@ def test_figures_over_the_turn_and_papers_are_handed_out(monkeypatch) -> None:
     made = answer(Shelf(), {"do": "export", "text": four_bar, "kind": "papers", "name": "a.toml"})
     files = ["answers_template.csv", "handout.html", "key.csv", "key.html", "problem.html"]
     assert ("a-papers.zip", files) == (made["name"], ZipFile(BytesIO(b64decode(made["data"]))).namelist())
+
+
+def test_all_pages_of_a_figure_are_handed_out() -> None:
+    engine = {"do": "export", "text": library_text("engine-gas-force"), "name": "e.toml", "figures": ["forces"]}
+    made = answer(Shelf(), {**engine, "kind": "svg"})
+    pages = ["e-forces.svg", "e-forces-2.svg"]
+    assert ("e-forces.zip", pages) == (made["name"], ZipFile(BytesIO(b64decode(made["data"]))).namelist())
+    assert "e-forces.pdf" == answer(Shelf(), {**engine, "kind": "pdf"})["name"]
+
+
+def test_variants_of_which_none_can_be_made_are_refused_with_the_reason(monkeypatch) -> None:
+    none = ProblemSet(mechanism_of(tomllib.loads(SIXBAR)), (Variant("01", why="no round numbers"),))
+    monkeypatch.setattr("graphkin.api.classroom.problem_sets.problem_set", lambda *_, **__: none)
+    assert "01: no round numbers" == asked("export", kind="variants")["problems"][0]["text"]
 
 
 @pytest.mark.parametrize("wrong", ["links.1.points", "links.1.at", "links.1.guides", "frame.points", "frame.guides"])
@@ -542,6 +575,22 @@ def test_beside_a_limit_the_page_says_the_same_while_a_hand_moves_as_when_it_res
     moving, resting = (shown(scene, {"1": at}, FigureOptions(figures=("velocity",)), quick) for quick in (True, False))
     assert (resting["at"], resting["limit"]) == (moving["at"], moving["limit"])
     assert (at < 30) == (moving["limit"] == "")
+
+
+def test_what_several_drivers_do_not_reach_is_told_alike_while_a_hand_moves_and_when_it_rests() -> None:
+    bars = {"1": ("AB", 40), "2": ("BC", 60), "3": ("CD", 60), "4": ("ED", 40)}
+    cranks = [{"link": "1", "angle": 90, "omega": 1}, {"link": "4", "angle": 90, "omega": 2}]
+    scene = mechanism_of({
+        "frame": {"points": {"A": [0, 0], "E": [100, 0]}}, "driver": cranks, "sketch": {"C": [50, 73]},
+        "links": {name: {"points": [*ends], "length": long} for name, (ends, long) in bars.items()},
+    })
+
+    def why(quick: bool) -> str:
+        with pytest.raises(graphkin.Unsolvable) as found:
+            shown(scene, {"1": 200, "4": 0}, FigureOptions(figures=("velocity",)), quick)
+        return str(found.value)
+
+    assert why(False) == why(True)
 
 
 def test_the_steps_on_the_page_are_read_aloud_in_its_language() -> None:

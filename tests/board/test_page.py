@@ -290,6 +290,30 @@ def test_nothing_stands_beside_the_screen(page, width: int) -> None:
     assert width == page.evaluate("document.documentElement.scrollWidth")
 
 
+def test_a_step_that_is_shown_stays_so_when_a_figure_is_enlarged(page) -> None:
+    open_scene(page)
+    page.click("summary:has-text('Steps')")
+    page.click("button:has-text('Next')")
+    faded = until(page, "document.querySelectorAll('.later').length")
+    page.click("button:has-text('Enlarge')")
+    assert faded == page.evaluate("document.querySelectorAll('.later').length")
+
+
+def test_a_value_that_is_not_reached_gives_way_to_that_of_the_figures(page) -> None:
+    open_scene(page, "elliptic-trammel")
+    page.fill("input[aria-label='Driver value']", "900")
+    page.keyboard.press("Enter")
+    until(page, "document.querySelector('.told').textContent")
+    assert "199.9996" == page.input_value("input[aria-label='Driver value']")
+
+
+def test_the_form_counts_teeth_and_gives_places_x_and_y(page) -> None:
+    open_scene(page, "geared-five-bar")
+    page.click("[data-tab=form]")
+    names = page.evaluate("[...document.querySelectorAll('.field input')].map(one => one.name)")
+    assert {"gears.g.teeth.1", "gears.g.teeth.2", "frame.points.A.x"} <= {*names}
+
+
 def test_the_driver_turns_by_slider_number_and_playing(page) -> None:
     open_scene(page)
     page.fill("input[aria-label='Driver value']", "120")

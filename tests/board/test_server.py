@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import asyncio
 import http.client
 import json
+import logging
 import random
+import signal
+import socket
 from urllib.parse import urlsplit
 
 import pytest
 
-from graphkin.board.server import LARGEST_MESSAGE, STATIC
+from graphkin.board.server import LARGEST_MESSAGE, STATIC, Address, _run, application
+from graphkin.board.shelf import Shelf
 from graphkin.scene.scene import library_text
 from tests.board.served import served, talking
 from tests.command import run
@@ -168,6 +173,14 @@ def test_a_port_that_is_taken_is_said(url: str, tmp_path) -> None:
     found = run("open", "--port", str(urlsplit(url).port), "--no-browser", cwd=tmp_path)
     assert 2 == found.returncode
     assert "cannot be used" in found.stderr
+
+
+def test_a_server_that_is_interrupted_says_nothing_of_answers_that_it_cuts_off() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        running = _run(application(Shelf(), Address(0)), listening, lambda: signal.raise_signal(signal.SIGINT))
+        with pytest.raises(KeyboardInterrupt):
+            asyncio.run(running)
+    assert not logging.getLogger("uvicorn.error").isEnabledFor(logging.ERROR)
 
 
 def test_the_page_speaks_no_unknown_language() -> None:

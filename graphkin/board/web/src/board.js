@@ -94,7 +94,7 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
     editor.problems(found);
     list.replaceChildren(...found.map((one) => h("li", {}, one.line ? button(atLine(one), () => { tab("text"); editor.goTo(one.line); }) : one.text)));
     if (found.length) {
-      verdict.textContent = word("stays");
+      verdict.textContent = area.childElementCount ? word("stays") : "";
       verdict.className = "differs";
     }
   };
@@ -193,7 +193,7 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
       if (now === undefined || more) return;
       if (!this.held) slider.value = this.turns ? ((now % 360) + 360) % 360 : now;
       const rounded = Math.abs(now) < 1e-9 * (this.high - this.low) ? 0 : Number(now.toPrecision(7));
-      if (document.activeElement !== value) value.value = rounded;
+      if (told.drivers || document.activeElement !== value) value.value = rounded;
     },
     to(now, quick) {
       if (!Number.isFinite(now) || !last) return;

@@ -8,6 +8,7 @@ export function figureBoard(parent, { word, pull, name, again }) {
   const shown = new Map(); // figure -> { section, port, zoom, anchor }
   let last = null; // what the server told last
   let held = null; // the point in the hand
+  let step = null; // of the construction: what comes after it is faded
 
   const anchorOf = (figure, svg) => {
     const fixed = last ? Object.entries(last.points).filter(([, p]) => p.pull === "frame").map(([n]) => n) : [];
@@ -39,7 +40,10 @@ export function figureBoard(parent, { word, pull, name, again }) {
     const one = shown.get(figure);
     const svg = figureOf(text);
     one.port.replaceChildren(svg);
-    if (svg.nodeName !== "svg") return null;
+    if (svg.nodeName !== "svg") {
+      one.port.style.height = "";
+      return null;
+    }
     const [, , width, height] = svg.getAttribute("viewBox").split(" ").map(Number);
     return { figure, one, svg, width, height };
   };
@@ -130,6 +134,14 @@ export function figureBoard(parent, { word, pull, name, again }) {
     if (held?.keys && event.target.getAttribute("data-point") !== held.keys) held = null;
   });
 
+  const fade = () => {
+    for (const element of parent.querySelectorAll("[class*='step-']")) {
+      const number = Number(/step-(\d+)/.exec(element.getAttribute("class"))[1]);
+      element.classList.toggle("later", step !== null && number > step);
+      element.classList.toggle("now", step !== null && number === step);
+    }
+  };
+
   return {
     /** Shows what the server told; `moving` keeps scale and place while a hand moves. */
     show(told, wanted, moving = false) {
@@ -152,17 +164,15 @@ export function figureBoard(parent, { word, pull, name, again }) {
         const grip = parent.querySelector(`[data-point="${CSS.escape(held.keys)}"]`);
         grip?.focus({ preventScroll: true });
       }
+      fade();
     },
     get holding() {
       return held !== null && !held.keys;
     },
     /** Fades what comes after a step of the construction; none shows all. */
-    upTo(step) {
-      for (const element of parent.querySelectorAll("[class*='step-']")) {
-        const number = Number(/step-(\d+)/.exec(element.getAttribute("class"))[1]);
-        element.classList.toggle("later", step !== null && number > step);
-        element.classList.toggle("now", step !== null && number === step);
-      }
+    upTo(number) {
+      step = number;
+      fade();
     },
   };
 }

@@ -36,8 +36,7 @@ export function sceneForm(parent, { word, change }) {
   };
   const fields = (path, value) => {
     if (Array.isArray(value) && value.length && value.every((one) => typeof one === "number")) {
-      const names = value.length === 2 ? ["x", "y"] : value.map((_, i) => i + 1);
-      return value.map((one, i) => field(`${path}.${names[i]}`, one));
+      return value.map((one, i) => field(item(path, i), one));
     }
     if (Array.isArray(value) && value.some((one) => one && typeof one === "object" && !Array.isArray(one))) {
       return value.map((one, i) => h("fieldset", {}, h("legend", {}, `${path.split(".").at(-1)} ${i + 1}`), ...fields(`${path}.${i + 1}`, one)));
@@ -79,7 +78,7 @@ export function sceneForm(parent, { word, change }) {
     follow(changes) {
       for (const [path, value] of Object.entries(changes ?? {})) {
         const list = Array.isArray(value);
-        const parts = list ? value.map((one, i) => [`${path}.${["x", "y"][i]}`, one]) : [[path, value]];
+        const parts = list ? value.map((one, i) => [item(path, i), one]) : [[path, value]];
         for (const [name, one] of parts) {
           const input = document.getElementById(`field-${name}`);
           if (input && input !== document.activeElement) input.value = one;
@@ -89,4 +88,6 @@ export function sceneForm(parent, { word, change }) {
   };
 }
 
+/** The path of an item of a list of numbers: a place has x and y, others (teeth, two compass lengths) are counted. */
+const item = (path, i) => `${path}.${(/\.([A-Z]\w*|through|at|centre)$/.test(path) && "xy"[i]) || i + 1}`;
 const without = (table, keys) => Object.fromEntries(Object.entries(table).filter(([key]) => !keys.includes(key)));
