@@ -221,8 +221,7 @@ def _row(
     tolerance = max(allowed, share * whole, rounded)
     part = FAIR if sheet.instrument in ON_PAPER else COARSE
     fair = whole == 0.0 == least or tolerance <= max(part * whole, least)
-    deviation = reading.value - exact if math.isfinite(abs(exact)) else math.inf
-    error = abs(math.remainder(deviation.real, math.tau) if symbol.measure.is_angle else deviation)
+    error = abs(symbol.difference(reading.value, exact)) if math.isfinite(abs(exact)) else math.inf
     told = fair and not (unsure and LAST_DIGITS * whole < abs(exact) <= floor)
     return Compared(
         reading, exact, error, tolerance, _turned(reading, exact, whole), expected, floor, told, by_drivers

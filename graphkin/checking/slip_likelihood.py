@@ -128,8 +128,7 @@ class Judged:
     @property
     def off(self) -> Value:
         """The stated value less the exact one; of an angle without whole turns."""
-        deviation = self.printed.value - self.exact
-        return math.remainder(deviation.real, math.tau) if self.printed.symbol.measure.is_angle else deviation
+        return self.printed.symbol.difference(self.printed.value, self.exact)
 
     @property
     def deviation(self) -> float | None:

@@ -71,7 +71,7 @@ def predict(
     base = read(still) or {}
     if most and not together:
         some = _samples(read, name, tools, FEW_SAMPLES)
-        offs = {s: _spread(value, [values[s] for values in some if s in values]) for s, value in base.items()}
+        offs = {s: _spread(s, value, some) for s, value in base.items()}
         if sum(COVERAGE * offs[s] > CLEARLY * most[s] for s in most if s in offs) > spare:
             return {s: Uncertainty(error, _reading(s), 1.0, error) for s, error in offs.items()}
     drawn_causes = sheet.causes
@@ -85,7 +85,7 @@ def predict(
         values = read(nudged(name, tools, {act: 1.0}), act)
         # so near a dead point that this act alone makes the arcs miss: nothing can be promised
         moved[:, act - 1] = [
-            math.inf if values is None else values.get(s, math.inf) - value for s, value in base.items()
+            math.inf if values is None else s.difference(values.get(s, math.inf), value) for s, value in base.items()
         ]
         if most and not together:
             squares += np.abs(moved[:, act - 1]) ** 2
@@ -106,7 +106,7 @@ def predict(
         uncertainty = replace(_summed(symbol, shares, drawn_causes), moved=tuple(row.tolist()))
         if times > BENT:
             uncertainty = replace(uncertainty, deviation=uncertainty.first * times)
-        seen = _spread(value, [values[symbol] for values in samples if symbol in values])
+        seen = _spread(symbol, value, samples)
         if seen > BEYOND * uncertainty.deviation:
             uncertainty = replace(uncertainty, deviation=CURVED * seen)
         predicted[symbol] = uncertainty
@@ -158,7 +158,7 @@ def _bent(
             drawn = errors, tuple(values for values in tried if values is not None)
             ways.append(drawn)
         expected = COVERAGE * abs(complex(row @ drawn[0]))
-        offs = [abs(values[symbol] - base[symbol]) for values in drawn[1] if symbol in values]
+        offs = [abs(symbol.difference(values[symbol], base[symbol])) for values in drawn[1] if symbol in values]
         times[i] = max(offs) / expected if offs else 1.0
     return times
 
@@ -176,9 +176,10 @@ def _reading(symbol: Symbol) -> Phrase:
     return Phrase("reading", symbol=symbol)
 
 
-def _spread(value: complex | float, values: Sequence[complex | float]) -> float:
-    """Root of the mean square deviation from a value."""
-    return math.sqrt(added_up(abs(v - value) ** 2 for v in values) / len(values)) if values else 0.0
+def _spread(symbol: Symbol, value: complex | float, samples: Sequence[Values]) -> float:
+    """Root of the mean square deviation of a reading from a value."""
+    errors = [abs(symbol.difference(values[symbol], value)) for values in samples if symbol in values]
+    return math.sqrt(added_up(error**2 for error in errors) / len(errors)) if errors else 0.0
 
 
 def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int, Cause], ...]) -> Uncertainty:
@@ -283,7 +284,7 @@ def _gain(
             ahead, behind = ((read(hand) or {}).get(symbol) for hand in hands)
             if ahead is None or behind is None:
                 return math.inf
-            products += size * float(part(ahead - behind)) / 2
+            products += size * float(part(symbol.difference(ahead, behind))) / 2
     squares = float((np.abs(row) ** 2).sum())
     halved = min(max(2 * (squares - products), 0.0), squares)
     return math.sqrt(1 - 0.75 * halved / squares)

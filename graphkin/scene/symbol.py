@@ -326,6 +326,15 @@ class Symbol:
         is."""
         return replace(self, link=self.other, other=self.link) if self.other else self
 
+    def difference(self, value: complex | float, other: complex | float) -> complex | float:
+        """A value of it (SI) less another; of an angle without whole turns.
+
+        >>> Symbol.parse("theta_3").difference(math.radians(179), math.radians(-179)) < 0
+        True
+        """
+        less = value - other
+        return math.remainder(less.real, math.tau) if self.measure.is_angle and math.isfinite(less.real) else less
+
     def links(self) -> Iterator[str]:
         """The names of links in it; the first may be a pin's (see ``link``)."""
         yield from (name for name in (self.link, self.other) if name)

@@ -126,6 +126,15 @@ def test_the_advice_names_a_step_and_a_figure_that_helps():
     assert float(better) < float(percent)
 
 
+def test_a_pencil_tells_an_angle_near_180_degrees_as_any_other():
+    scene = slider_crank(50, 160, sketch={"C": [-110, 0]}, driver={"link": "1", "angle": 0.2, "omega": 10},
+                         find=["theta_2", "v_C"])
+    made = graphkin.check(scene, instrument="pencil")
+    row = next(row for row in made.report.rows if str(row.reading.symbol) == "theta_2")
+    assert row.determined
+    assert 0 < row.error <= row.tolerance < math.radians(3)
+
+
 @pytest.mark.parametrize("name", ["fourbar-150-500-300-400", SIXBAR, "hydraulic-cylinder"])
 def test_the_deviation_told_of_a_larger_figure_is_that_of_a_drawing_with_it(name):
     planned = plan(mechanism_of(name))
