@@ -47,17 +47,16 @@ class TableRow:
 
 def readings_table(
     sheet: Sheet, rows: Sequence[TableRow], letters: Notation, language: str, area: Box
-) -> tuple[tuple[Primitive, ...], int]:
-    """Readings in columns that fill an area (mm): symbol, on paper, measured, exact, difference; how many fit."""
+) -> tuple[Block, int]:
+    """Readings in columns as wide as an area (mm): symbol, on paper, measured, exact, difference; how many fit."""
     count, columns, row_height = _grid(len(rows), area, len(languages(language)))
     rows = rows[: max(0, count)]
     width = (area.width - GUTTER * (columns - 1)) / columns
     per_column = max(1, math.ceil(len(rows) / columns))
-    drawn = row(*(
+    return row(*(
         _column(sheet, rows[k : k + per_column], letters, language, width, row_height)
         for k in range(0, len(rows), per_column)
-    ), gap=GUTTER)
-    return drawn.moved(complex(area.left, area.top)).layers.get("answers", ()), len(rows)
+    ), gap=GUTTER), len(rows)
 
 
 def table_rows(report: Report) -> list[TableRow]:

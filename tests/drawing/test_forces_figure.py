@@ -288,3 +288,7 @@ def test_the_sketch_of_a_group_and_its_polygon_stand_on_one_page(name: str, link
     pages = [page.content("svg").decode() for page in graphkin.draw(name, figures=["forces"]).figures.values()]
     (page,) = (page for page in pages if f'id="free-body-{links}"' in page)
     assert re.search(f'class="vector[^"]*" id="{force}', page)
+
+
+def test_readings_of_forces_stand_on_the_page_that_has_room_for_their_three_columns() -> None:
+    assert ["forces"] == [*graphkin.draw("engine-gas-force", figures=["forces"]).figures]

@@ -79,7 +79,7 @@ def forces_figure(page: FigurePage, report: Report) -> Drawing:
     needed = max((box.height for box in boxes), default=0.0) + 2 * page.prose(("force",)).height
     room, height = max(spare, needed), height + max(0.0, needed - spare)  # a larger paper for a wished scale
     rows = [TableRow(row) for row in report.rows if row.symbol.scope == "force"]
-    blocks = [_given(page), *_groups(page, room), *_tables(page, rows)]
+    blocks = [_given(page), *_groups(page, room), *_tables(page, rows, room)]
     units = sheet.scene.units
     scales = {"length": sheet.scales.length * 1e3, "force": sheet.scales.force / units.newtons}
     first, *further = (
@@ -203,19 +203,17 @@ def group_equation(page: FigurePage, group: ForceGroup) -> Drawing | None:
     return Drawing(sum_.width, sum_.height, sum_.piece.drawn, page.term("forces"), "", languages(page.language)[0])
 
 
-def _tables(page: FigurePage, some: Sequence[TableRow]) -> Iterator[Block]:
-    """The readings with their check, in parts if they do not fit a page."""
+def _tables(page: FigurePage, some: Sequence[TableRow], room: float) -> Iterator[Block]:
+    """The readings with their check, in parts if they do not fit a page of a height (mm)."""
     left, account = list(some), Account(page.sheet, page.letters)
     while left:
-        most = min(len(left), 80)
-        height = 10.0 + 4.2 * -(-most // 2) + 3.7 * (len(languages(page.language)) - 1)
-        area = Box(0.0, 0.0, page.width, height)
-        readings, shown = readings_table(page.sheet, left[:most], page.letters, page.language, area)
         caption = page.prose((page.term("readings"),), 3.2, bold=True)
+        area = Box(0.0, 0.0, page.width, room - caption.height)
+        readings, shown = readings_table(page.sheet, left, page.letters, page.language, area)
         left = left[shown:] if shown else []
         notes = ((note, each) for note in page.sheet.force_notes * (not left) for each in languages(page.language))
         sentences = prose((account.sentence(note, each) for note, each in notes), page.width)
-        yield column(caption, Block(Piece({"answers": readings}), height), sentences)
+        yield column(caption, readings, sentences)
 
 
 # a group cut free

@@ -389,7 +389,8 @@ def _readings(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tup
         return Piece(), rest
     caption = page.term("readings continued" if rest.begun and place != "continuation" else "readings")
     left = replace(rest, readings=rest.readings[count:], begun=True)
-    return captioned(box, caption, "answers", table), left
+    shown = table.moved(complex(box.left, box.top)).layers.get("answers", ())
+    return captioned(box, caption, "answers", shown), left
 
 
 LEGIBLE_TITLE = 2.4  # mm
