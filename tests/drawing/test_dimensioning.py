@@ -93,10 +93,12 @@ def test_the_unit_of_dimensions_is_told_where_it_is_not_the_millimetre():
     assert any(text.endswith("dimensions in inches") for text in told)
 
 
-def test_pivots_whose_symbols_overlap_are_drawn_again_larger():
-    groups = [thing.id for thing in walk(draw("sixbar-rotating-guide-35rpm").figures["sheet"].children)
-              if isinstance(thing, Group)]
-    assert "detail-mechanism" in groups
+def test_pivots_whose_symbols_overlap_are_ringed_and_drawn_again_larger_under_the_same_numeral():
+    page = draw("sixbar-rotating-guide-35rpm", figures=("sheet",)).figures["sheet"]
+    things = {thing.id: thing for thing in walk(page.children) if isinstance(thing, Group | Text)}
+    assert {"ring-mechanism", "detail-mechanism"} <= things.keys()
+    assert ("I", "I: Detail 5 : 1") == tuple(
+        things[f"label-{name}-mechanism"].string for name in ("ring", "detail"))
 
 
 def test_links_differ_in_black_and_white():

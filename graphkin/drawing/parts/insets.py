@@ -54,7 +54,7 @@ from graphkin.drawing.text import fitted, plain, rich, runs_width, text_box
 from graphkin.plane import cross, unit
 from graphkin.scene.model import PlacedPicture
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words.symbols import RichText, Words, rate, spaced
+from graphkin.words.symbols import RichText, Words, rate
 from graphkin.words.written import roman
 
 SMALL_INSET = 24.0, 21.0  # mm
@@ -224,6 +224,7 @@ def _inset(
 
 CLOSE = 5.0  # mm: the symbols of nearer points overlap
 TOGETHER = 0.5  # mm: nearer points are one place
+RING_ABOUT = 2.4  # mm from them to the ring about them, outside their symbols
 FACTORS = (2.0, 2.5, 5.0, 10.0, 20.0)
 APART = 11.0  # mm between them in the detail
 SIZE = (34.0, 34.0)  # mm of the inset
@@ -241,31 +242,31 @@ def mechanism_with_inset(
     origin : page point of the world's origin
     panel : room of it all (mm)
     """
-    named = with_labels(moved_piece(piece, origin), panel)
     scan = sheet.scene.question.background
-    mm = 1 / sheet.scales.length
-    under = Piece({"background": (_laid(scan, mm, origin, panel),)} if scan is not None else {})
-    return joined((under, named, _mechanism_detail(sheet, letters, language, panel, named.drawn)))
+    under = Piece({"background": (_laid(scan, 1 / sheet.scales.length, origin, panel),)} if scan is not None else {})
+    whole = moved_piece(piece, origin)
+    named, near = with_labels(whole, panel), _nearest(sheet)
+    boxes = free_boxes(1, SIZE, panel, obstacles_of(named.drawn)) if near is not None else []
+    if near is None or not boxes:
+        return joined((under, named))
+    one, two = (sheet.points[ref] for ref in near)
+    ring = Circle(origin + on_page(one + two) / 2, abs(one - two) / 2 + RING_ABOUT, stroke=strokes.CONSTRUCTION)
+    ringed = Group((ring,), id="ring-mechanism", classes=("ring",))
+    # the names anew: they keep off the ring and the inset
+    named = with_crowd(joined((whole, Piece({"labels": (ringed,)}))), panel, boxes)[0]
+    around = obstacles_of(named.drawn) + Obstacles(areas=tuple(boxes))
+    numeral = polygon.ring_numeral(1, "mechanism", ring.centre, ring.radius, around, panel)
+    return joined((under, named, numeral, _mechanism_detail(sheet, letters, language, near, boxes[0])))
 
 
 def _mechanism_detail(
-    sheet: Sheet, letters: Notation, language: str, panel: Box, drawn: tuple[Primitive, ...]
+    sheet: Sheet, letters: Notation, language: str, near: tuple[PointRef, PointRef], box: Box
 ) -> Piece:
-    """The inset for the two nearest points, in a free corner of the panel; none where all points lie apart, where there
-    is no room, or for erring hands, which would draw it anew.
-
-    ``drawn`` are all strokes on the panel, and the names.
-    """
-    near = _nearest(sheet)
-    if near is None or sheet.instrument != EXACT_NAME:
-        return Piece()
+    """The inset for two near points in a box of the page."""
     one, two = (sheet.points[ref] for ref in near)
     factor = next((f for f in FACTORS if f * abs(one - two) >= APART), FACTORS[-1])
     middle = (one + two) / 2
-    boxes = free_boxes(1, SIZE, panel, obstacles_of(drawn))
-    if not boxes:
-        return Piece()
-    inner = _inside(boxes[0], CAPTION)
+    inner = _inside(box, CAPTION)
     scales = sheet.scales
     larger = sheet.at(Scales(scales.length / factor, scales.velocity, scales.acceleration))
     shift = inner.centre - on_page(factor * middle)
@@ -274,10 +275,9 @@ def _mechanism_detail(
     names = tuple(one for one in bare.labels if one.text.id in kept and inner.distance(middle_of(one.mark)) == 0.0)
     bodies = map_tree(bare.layers["mechanism"], _without_id)
     named = with_labels(Piece({"mechanism": cut_to(bodies, inner)}, names), inner)
-    both = spaced(", ", (letters.point(ref.point) for ref in near))
-    words = term("detail", language, scale=f"{factor:g}") + ", " + both
+    words = f"{roman(1)}: " + term("detail", language, scale=f"{factor:g}")
     parts, classes = named.layers["mechanism"], ("inset", "detail")
-    frame = _inset(boxes[0], "mechanism", parts, (words,), 2.6, "detail-mechanism", classes)
+    frame = _inset(box, "mechanism", parts, (words,), polygon.NUMERAL, "detail-mechanism", classes)
     labels = tuple(
         thing._replace(id=f"label-detail-{thing.id.removeprefix('label-')}", step=None, since=None)
         if isinstance(thing, Text) else thing for thing in named.layers.get("labels", ())
@@ -286,7 +286,9 @@ def _mechanism_detail(
 
 
 def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
-    """The two nearest joints, if their symbols overlap."""
+    """The two nearest joints, if their symbols overlap; none for erring hands, which would draw them anew."""
+    if sheet.instrument != EXACT_NAME:
+        return None
     points = [
         (ref, z) for ref, z in sheet.points.items() if not ref.link and len(sheet.scene.holders.get(ref.point, ())) > 1
     ]

@@ -380,21 +380,28 @@ def rings(here: PolygonOnPage, enlarged: Sequence[Detail]) -> Iterator[Group]:
 
 
 def ring_numerals(here: PolygonOnPage, enlarged: Sequence[Detail], around: Obstacles) -> Piece:
-    """At each ring the numeral that it shares with its inset, where everything ``around`` leaves room; further off with
-    a leader."""
+    """The numerals at all rings."""
     pieces = []
     for order, d in enumerate(enlarged, 1):
-        id = f"label-ring-{here.diagram}-{order}"
-        since = here.since(d)
-        text = Text(0j, plain(roman(order), NUMERAL), id=id, classes=("label", "ring"), since=since)
-        box = text_box(text)
-        found = beside_ring(box, here.at(d.centre), d.radius + RING, around, here.panel)
-        if found is not None:
-            middle, leader = found
-            led = (Group((Line(*leader, strokes.LEADER),), since=since),) if leader else ()
-            pieces.append(Piece({"labels": (*led, text._replace(at=middle - box.centre))}))
-            around += obstacles_of(pieces[-1].drawn)
+        name, radius = f"{here.diagram}-{order}", d.radius + RING
+        pieces.append(ring_numeral(order, name, here.at(d.centre), radius, around, here.panel, here.since(d)))
+        around += obstacles_of(pieces[-1].drawn)
     return joined(pieces)
+
+
+def ring_numeral(
+    order: int, name: str, centre: complex, radius: float, around: Obstacles, panel: Box, since: int | None = None
+) -> Piece:
+    """At a ring the numeral that it shares with its inset, where everything ``around`` leaves room; further off with a
+    leader."""
+    text = Text(0j, plain(roman(order), NUMERAL), id=f"label-ring-{name}", classes=("label", "ring"), since=since)
+    box = text_box(text)
+    found = beside_ring(box, centre, radius, around, panel)
+    if found is None:
+        return Piece()
+    middle, leader = found
+    led = (Group((Line(*leader, strokes.LEADER),), since=since),) if leader else ()
+    return Piece({"labels": (*led, text._replace(at=middle - box.centre))})
 
 
 def _images(here: PolygonOnPage) -> Iterator[Primitive]:
