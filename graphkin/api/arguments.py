@@ -178,7 +178,7 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
         if driver is None:
             wanted = did_you_mean(str(name), [d.key for d in scene.drivers])
             raise CallError.of(f"at {name}", "no driver of that name", wanted)
-        if not isinstance(value, Real) or abs(value) > 1e9 or not math.isfinite(value):
+        if isinstance(value, bool) or not isinstance(value, Real) or abs(value) > 1e9 or not math.isfinite(value):
             raise CallError.of(f"at {name}", "is no driver value of value", "give a finite number below 1e9",
                                value=f'{value!r:.60}')
         values[driver.key] = math.radians(value) if driver.turns else value * scene.units.metres

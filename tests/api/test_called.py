@@ -29,6 +29,7 @@ def test_one_symbol_may_stand_without_a_list():
             'position 50: the scene has no [positions] table; give a value of driver 1: --at 75',
         ),
         (lambda: graphkin.check(SIXBAR, at={"1": float("nan")}), "at 1: nan is no driver value"),
+        (lambda: graphkin.check(SIXBAR, at=True), "at 1: True is no driver value"),
         (lambda: graphkin.solve(SIXBAR, sweep=2.5), "sweep: 2.5 positions; give a whole number"),
         (lambda: graphkin.solve(SIXBAR, sweep="12"), "sweep: found '12'; give a whole number from 1 to 10000000"),
         (lambda: graphkin.sweep(SIXBAR, positions="x"), "positions: found 'x'; give a whole number"),
