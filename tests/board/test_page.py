@@ -396,6 +396,16 @@ def test_what_is_written_in_another_language_of_the_page_is_saved(page) -> None:
     assert [] == page.query_selector_all(".problems li")
 
 
+def test_what_is_said_of_saving_stays_until_the_text_changes(page) -> None:
+    open_scene(page, "clockwise.toml")
+    type_at_the_top(page, "# saved\n")
+    page.once("dialog", lambda asked: asked.accept())
+    page.keyboard.press("Control+s")  # before the text typed is drawn
+    page.wait_for_selector(".told:has-text('Saved clockwise.toml')")
+    page.wait_for_timeout(600)
+    assert page.query_selector(".told:has-text('Saved clockwise.toml')")
+
+
 def test_a_new_scene_stays_when_the_page_speaks_another_language(page) -> None:
     page.click("[data-new=four-bar]")
     new = until(page, "document.getElementById('board').board.editor.text")

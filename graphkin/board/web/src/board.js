@@ -102,6 +102,7 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
   const changed = (text, outside) => {
     state.text = text;
     state.dirty = true;
+    saying.textContent = "";
     keep();
     wrote(text);
     saveButton.disabled = false;
@@ -127,6 +128,7 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
   const verdict = h("span", { role: "status", "aria-live": "polite" });
   const freedom = h("span.freedom");
   const limit = h("p.told", { role: "status", "aria-live": "polite" });
+  const saying = h("p.told", { role: "status", "aria-live": "polite" }); // of saving, until the text changes
   const list = h("ul.problems", { "aria-live": "assertive" });
   const saveButton = button(word("save"), () => save());
   const gone = h("span.differs", { role: "alert" });
@@ -284,7 +286,7 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
   const find = h("input", { type: "text", placeholder: "v_C, omega_3", "aria-label": word("asked") });
   const diagramButton = button(word("diagrams"), () => chart({ do: "diagrams", find: find.value.split(/[,\s]+/).filter(Boolean) }, diagramButton));
   const raceButton = button(word("race"), () => chart({ do: "race" }, raceButton));
-  const right = h("div.right", {}, wishBar, driveBar, limit, area,
+  const right = h("div.right", {}, wishBar, driveBar, limit, saying, area,
     h("details", { open: true }, h("summary", {}, word("readings")), h("div.scroll", { tabindex: 0, role: "region", "aria-label": word("readings") },
       h("table", {}, h("thead", {}, h("tr", {}, ...["symbol", "on paper", "measured", "exact value", "agree"].map((key) => h("th", { scope: "col" }, word(key))))), readings))),
     h("details", {}, h("summary", {}, word("steps")), h("div.row", {}, button(word("back"), () => along(-1)), button(word("next"), () => along(1)), button(word("all"), () => toStep(null))), steps),
@@ -357,13 +359,13 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
     state.asked = true;
     const told = await ask({ do: "save", name, text: state.text, mark });
     if (!told.ok) { // the scene is as right as it was
-      limit.textContent = told.problems.map((one) => one.text).join(" ");
+      saying.textContent = told.problems.map((one) => one.text).join(" ");
       return undefined;
     }
     Object.assign(state, { name, mark: told.mark, own: true, dirty: false });
     fileName.textContent = name;
     saveButton.disabled = true;
-    limit.textContent = `${word("saved")} ${name}`;
+    saying.textContent = `${word("saved")} ${name}`;
     return keep();
   };
   const out = dialog(word("out"), async (close) => {
