@@ -417,7 +417,7 @@
     frame = k;
     for (const draw of draws) draw(k);
     byId("turn").value = k;
-    const at = `${m.driver.replace(/[_{}]/g, "")} = ${m.at[k]}${m.unit}`;
+    const at = `${m.driver.replace(/[_{}]/g, "")} = ${String(m.at[k]).replace("-", "\u2212")}${m.unit}`;
     byId("turn-out").textContent = at;
     for (const svg of byId("moving").querySelectorAll("svg")) {
       svg.setAttribute("aria-label", `${svg.dataset.name}. ${at}`);
