@@ -57,9 +57,13 @@ def draft(made: Tables) -> OwnTables:
     _, fixed = frame_in(made)
     spots = {**table_in(made, "sketch"), **table_in(made, "drawn"), **table_in(made, "seen"), **fixed}
     points = {str(p): list(z) for p, z in spots.items() if _place(z)}
+    per = math.degrees(1.0) if table_in(made, "units").get("angle") == "rad" else 1.0
     for name, z in fixed.items():
         if isinstance(z, Mapping) and str(z.get("from")) in points and _place([z.get("r"), z.get("angle", 0.0)]):
-            points[name] = xy(complex(*points[z["from"]]) + z["r"] * direction(z.get("angle", 0.0)))
+            start, ahead = complex(*points[z["from"]]), z.get("toward")
+            way = 1.0 if ahead is None else complex(*points.get(str(ahead), points[z["from"]])) - start
+            if way:
+                points[name] = xy(start + z["r"] * way / abs(way) * direction(per * z.get("angle", 0.0)))
     links = {}
     for name, link in table_in(made, "links").items():
         if isinstance(link, Mapping):
@@ -71,7 +75,7 @@ def draft(made: Tables) -> OwnTables:
         through = points.get(through) if isinstance(through, str) else through
         if _place(through):
             turn = guide.get("angle")
-            guides.append({"through": through, "angle": turn if isinstance(turn, int | float) else 0.0})
+            guides.append({"through": through, "angle": per * turn if isinstance(turn, int | float) else 0.0})
     return {"points": points, "fixed": [p for p in fixed if p in points], "links": links, "guides": guides}
 
 

@@ -320,6 +320,20 @@ def test_what_no_name_or_number_of_json_can_be_is_told_as_any_other_error(wrong:
     json.dumps(found, allow_nan=False)
 
 
+def test_a_pivot_of_an_unfinished_mechanism_lies_toward_the_point_that_it_names() -> None:
+    text = """
+    [units]
+    angle = "rad"
+    [frame.points]
+    A = [0, 0]
+    B = [0, 10]
+    C = { from = "A", r = 5, toward = "B" }
+    D = { from = "A", r = 2, angle = 1.5707963267948966 }
+    """
+    points = answer(Shelf(), {"do": "show", "text": text})["draft"]["points"]
+    assert (pytest.approx([0.0, 5.0]), pytest.approx([0.0, 2.0])) == (points["C"], points["D"])
+
+
 def test_a_bar_between_two_new_points_names_them_apart() -> None:
     made = tomllib.loads(built({"what": "bar", "from": [0, 0], "to": [20, 30]}))
     assert ["A", "B"] == made["links"]["1"]["points"]
