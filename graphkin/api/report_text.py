@@ -214,7 +214,10 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
             said += semicolon + say(Phrase("turns to close", turns=turn.reach.turns), language)
     else:
         said = _between(scene, turn.ranges[0], language)
-    lines.append(f"{word('range', language)} {driver.key}{colon}{said}")
+    stand = [*zip(scene.drivers, turn.reach.start.tolist(), strict=False)][1:]
+    held = [f"{d.key} = {say(scene.place_said(d, value), language)}" for d, value in stand]
+    others = say(Phrase("in brackets", words=listed(held)), language) if held else ""
+    lines.append(f"{word('range', language)} {driver.key}{others}{colon}{said}")
     lines += ["  " + say(one, language) for one in passed_words(scene, turn.reach.change_points)]
     for other in turn.ranges[1:]:
         lines.append("  " + say(Phrase("also assembles", assembly=_between(scene, other, language)), language))

@@ -913,6 +913,17 @@ def test_a_motion_without_an_end_is_told_as_far_as_it_is_followed() -> None:
         "Range of the driver 1: no end as far as the motion is followed, from -1440° to 1440°")
 
 
+def test_the_range_of_one_driver_of_several_is_told_with_the_values_of_the_others() -> None:
+    five_bar = {
+        "frame": {"points": {"A": [0, 0], "D": [120, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 50}, "2": {"points": ["B", "C"], "length": 90},
+                  "3": {"points": ["C", "E"], "length": 90}, "4": {"points": ["D", "E"], "length": 60}},
+        "driver": [{"link": "1", "angle": 100, "omega": 1}, {"link": "4", "angle": 60, "omega": 2}],
+    }
+    assert told(five_bar)[0].startswith("Range of the driver 1 (4 = 60°): -88.1152° – 126.328°")
+    assert told(five_bar, "zh")[0].startswith("原动件活动范围 1（4 = 60°）：")
+
+
 def test_a_place_found_nearer_to_nought_than_a_search_tells_is_told_as_nought() -> None:
     # the coupler of a change-point four-bar drives: where the bars lie in one line, two zeros fall together
     scene = scenes.four_bar(70, 140, 110, 180, driver={"link": "2", "angle": 22, "omega": 2}, sketch={"C": [170, 109]})
