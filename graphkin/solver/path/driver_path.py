@@ -227,7 +227,9 @@ class Path:
         found, n = dict[str, Array](), len(self.nodes)
         poses = {name: pose.spread(n) for name, pose in self.placed(self.nodes).poses.items()}
         poses[self.structure.scene.frame.name] = rest().still(n)
-        for name, pose in (poses | redundant_poses(self.structure, poses, np.zeros(n, dtype=bool), EXACTLY)).items():
+        if any(link.redundant for link in self.structure.scene.links):
+            poses |= redundant_poses(self.structure, poses, np.zeros(n, dtype=bool), EXACTLY)
+        for name, pose in poses.items():
             u = np.nan_to_num(pose.u, nan=1.0)
             found[name] = np.angle(u[0]) + turning(u)
         return found
