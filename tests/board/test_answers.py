@@ -427,11 +427,11 @@ def test_figures_over_the_turn_and_papers_are_handed_out(monkeypatch) -> None:
 
 
 def test_all_pages_of_a_figure_are_handed_out() -> None:
-    engine = {"do": "export", "text": library_text("engine-gas-force"), "name": "e.toml", "figures": ["forces"]}
-    made = answer(Shelf(), {**engine, "kind": "svg"})
+    forces = {"do": "export", "text": library_text("sine-mechanism-forces"), "name": "e.toml", "figures": ["forces"]}
+    made = answer(Shelf(), {**forces, "kind": "svg"})
     pages = ["e-forces.svg", "e-forces-2.svg"]
     assert ("e-forces.zip", pages) == (made["name"], ZipFile(BytesIO(b64decode(made["data"]))).namelist())
-    assert "e-forces.pdf" == answer(Shelf(), {**engine, "kind": "pdf"})["name"]
+    assert "e-forces.pdf" == answer(Shelf(), {**forces, "kind": "pdf"})["name"]
 
 
 def test_variants_of_which_none_can_be_made_are_refused_with_the_reason(monkeypatch) -> None:
