@@ -217,7 +217,7 @@ class PageItem:
 
     @property
     def floats(self) -> bool:
-        """Whether it is a figure that later pieces may overtake."""
+        """Whether it is a figure that later words may overtake."""
         return isinstance(self.block, Picture) and self.block.floats
 
     @property
@@ -465,7 +465,8 @@ def _begun(
             if i == len(pieces):
                 break
             piece = pieces[i]
-            if page.numbers and (piece.fresh or page.room or (left is not None and piece.floats)):
+            later = left is not None and isinstance(piece.block, Picture | Beside)  # no figure overtakes another
+            if page.numbers and (piece.fresh or page.room or later):
                 break
             if piece.floats and piece.tie < KEPT and left is None and page.numbers:
                 stack.append((page, i + 1, i))

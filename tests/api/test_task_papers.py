@@ -80,6 +80,13 @@ def test_the_problem_of_a_cam_begins_with_its_circles_alone(name):
     assert {b"2"} == begun < whole
 
 
+def test_the_problem_of_a_cam_numbers_the_divisions_of_which_it_asks():
+    papers = cam_papers(graphkin.cam("cam-flat-face")["1"], ["html"], "en")
+    numbered = [re.findall(r'class="cell"[^>]*>(?:<tspan[^>]*>)?(\d+)<', papers[f"cam-{part}.html"].decode())
+                for part in ("problem", "solution")]
+    assert numbered[0] == numbered[1] == [str(k) for k in range(22)]
+
+
 def test_a_design_is_told_from_a_scene():
     assert [True, False] == [is_design("rocker-limits"), is_design("shaper-scheme-2")]
 

@@ -71,6 +71,12 @@ def test_a_figure_without_room_gives_way_to_the_words_behind_it():
     assert [[0, 2], [1, 3]] == [numbers(pieces, page) for page in pages(pieces)]
 
 
+def test_no_figure_overtakes_another():
+    words, figure = PageItem(WORDS, 150.0), PageItem(FIGURE, 120.0, 3.0, 0.04)
+    pieces = [words, figure, PageItem(Picture(None), 100.0, 3.0), PageItem(WORDS, 30.0, 3.0)]
+    assert [[0], [1, 2, 3]] == [numbers(pieces, page) for page in pages(pieces)]
+
+
 def test_steps_in_two_columns_are_about_as_high_on_both_sides():
     assert (2, 32.0) == balanced([20.0, 10.0, 25.0])
 

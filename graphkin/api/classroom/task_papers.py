@@ -199,11 +199,12 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         measured = number(round(drawn / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
         results.append(_result(sign(letter, str(k)), unit, measured, number(value, 5), value, deviation, -math.inf))
     captions = said("cam diagram", language), said("cam figure", language)
+    diagram, begun = cam_pictures(scene, cam, sheet, language, begun=True)
     return _papers(
         title=in_each(language, lambda each: scene.question.title_in(each) or scene.name),
         given=(in_each(language, lambda each: cam_given(scene, cam, each)),
                in_each(language, lambda each: labelled("find", word("cam find", each), each))),
-        start=cam_pictures(scene, cam, sheet, language, begun=True),
+        start=(bare_picture(diagram), begun),  # the first is wider than the page inside
         whole=dict(zip(captions, cam_pictures(scene, cam, sheet, language), strict=True)),
         sheet=sheet,
         results=results,

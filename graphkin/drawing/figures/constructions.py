@@ -413,7 +413,7 @@ def _unit(scene: Mechanism, cam: LawCam) -> str:
 
 
 def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: bool = False) -> Block:
-    """The displacement diagram; with ``begun`` only its axes with the pieces of the law."""
+    """The displacement diagram; with ``begun`` only its axes with the pieces of the law and the divisions."""
     law = cam.law
     span, low = _lift(scene, cam, law.greatest - law.least) or 1.0, _lift(scene, cam, law.least)
     rise = (law.greatest - law.least) / sheet.scales.length
@@ -432,11 +432,11 @@ def _diagram(scene: Mechanism, cam: LawCam, sheet: Sheet, language: str, begun: 
     drawn: list[Primitive] = [Line(origin, origin + LONG + 5.0, strokes.DIMENSION),
                               Line(origin, top - 5.0j, strokes.DIMENSION)]
     labels: list[Primitive] = []
-    divided = [] if begun else [(d.degree, d.lift, str(k)) for k, d in enumerate(divisions(sheet))]
+    divided = [(d.degree, law.least if begun else d.lift, str(k)) for k, d in enumerate(divisions(sheet))]
     free = below = 0.0  # of numbers, and of angles too wide for their pieces, from here on
     for degree, lift, name in (*divided, *((TURN, lift, "") for _, lift, _ in divided[:1])):
         foot, written = at(degree, law.least), plain(name, SMALL)
-        drawn.append(Line(foot, at(degree, lift), strokes.CONSTRUCTION))
+        drawn.append(Line(foot, foot + 1.0j if begun else at(degree, lift), strokes.CONSTRUCTION))
         half = runs_width(written) / 2 + NUMBERS_APART
         if name and foot.real - half >= free:
             cell(foot + 3.2j, written)
