@@ -68,7 +68,8 @@ def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:
 
 
 def _judged(case: Evidence, printed: Printed) -> Judged:
-    symbol, held = printed.symbol, case.held(printed.symbol)
+    symbol = printed.symbol
+    held = min(map(case.held, symbol.both), key=lambda h: abs(printed.value - comparable(printed, h.right, h.line)))
     judged = Judged(printed, comparable(printed, held.right, held.line), bound=held.bound, line=held.line)
     deviation, size, bound = abs(judged.off), abs(judged.exact), judged.bound
     turned = _turned(case, judged, held.right)
@@ -285,23 +286,24 @@ def _exact_rows(
     motion: Motion, symbols: Sequence[Symbol], of_turn: Mapping[Symbol, float], errors: Mapping[Symbol, Array]
 ) -> Exact:
     """The function of exact values of a table; a value that is rounding alone is 0."""
-    columns, lines = dict[Symbol, list[Value]](), dict[Symbol, Array | None]()
+    columns, lines = dict[Symbol, list[list[Value]]](), dict[Symbol, list[complex | None]]()
     for symbol in symbols:
         if symbol not in of_turn:
-            column, nothing = value_of(motion, symbol), np.zeros(len(motion))
+            column, nothing = [value_of(motion, each) for each in symbol.both], np.zeros(len(motion))
             if symbol in errors:
                 nothing = NOTHING / COMPUTED_SHARE * errors[symbol]
             elif symbol.scope == "force":
                 nothing = np.nan_to_num(forces_of(motion).bound[symbol.measure.length])
-            columns[symbol] = np.where(np.abs(column) <= nothing, 0.0, column).tolist()
-            lines[symbol] = senses_along(motion, symbol)
+            columns[symbol] = np.where(np.abs(column) <= nothing, 0.0, column).T.tolist()
+            senses = senses_along(motion, symbol)
+            lines[symbol] = [None] * len(motion) if senses is None else senses.tolist()
 
     def exact(row: int, printed: Printed) -> Value:
         symbol = printed.symbol
         if symbol in of_turn:
             return of_turn[symbol]
-        line = lines[symbol]
-        return comparable(printed, columns[symbol][row], None if line is None else complex(line[row]))
+        stated = (comparable(printed, value, lines[symbol][row]) for value in columns[symbol][row])
+        return min(stated, key=lambda value: abs(printed.value - value))
 
     return exact
 
@@ -371,7 +373,8 @@ def _explained_by_digits(
 
     def ways() -> Iterator[tuple[Phrase, Value]]:
         yield Phrase("slip sign"), -right
-        for factor in (sign for power in (1, 2, 3) for sign in (10.0**power, 0.1**power)):
+        powers = (1, 2, 3) if printed.symbol.measure.name not in ("angle", "number") else ()
+        for factor in (sign for power in powers for sign in (10.0**power, 0.1**power)):
             yield Phrase("slip factor", factor=f"{factor:g}"), right * factor
         for text, _, value in transcription_errors(printed):
             if abs(value - right) <= printed.rounding + 0.1 * COMPUTED_SHARE * abs(right):

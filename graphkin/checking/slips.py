@@ -294,7 +294,7 @@ def _slipped(slips: Sequence[Slipped], symbol: Symbol, exact: Value) -> Iterator
 def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     """The value in another unit, doubled or halved, or by the scale of the other polygon."""
     scene, scales, measure = case.plan.structure.scene, case.plan.scales, symbol.measure
-    second, plain = measure.order == 2, measure.is_angle or measure.name == "number"
+    second, plain = measure.order == 2, measure.name in ("angle", "number")
     units = [(f"{factor:g}", factor) for power in (1, 2, 3) for factor in (10.0**power, 0.1**power) if not plain]
     unit_name = scene.units.length
     if unit_name in INCHES and measure.is_of_motion and measure.length:  # no powers of ten
@@ -571,8 +571,8 @@ def _standing(motion: Motion) -> tuple[tuple[LoadOn, ...], tuple[LoadOn, ...]]:
     idle: list[LoadOn] = []
     for load in loading.loads:
         acting_now, value = (forces.values[load.symbol][0] for forces in (here, there))
-        if not value:
-            continue
+        if not value or (not acting_now and value_of(motion, replace(load.symbol, plus=True))[0]):
+            continue  # one that begins or ends just here is no slip
         bare = replace(load, phase=None)
         if load.is_force:
             bare = replace(bare, size=abs(value), turn=complex(value / abs(value)), follows="", against="")

@@ -272,6 +272,11 @@ class Symbol:
         return self.scope == "force" and self.measure.force == 1
 
     @property
+    def both(self) -> tuple[Symbol, ...]:
+        """A force without and with the loads that begin or end just there, both of them right; others themselves."""
+        return (self, replace(self, plus=True)) if self.is_load and not self.plus else (self,)
+
+    @property
     def order(self) -> int | None:
         """The order of its derivative by time of a place, an angle or a travel; None for other quantities."""
         return self.measure.order if self.entry.of_pose else None

@@ -8,8 +8,12 @@ from dataclasses import replace
 import pytest
 
 import graphkin
+from graphkin import solver
 from graphkin.api.classroom.audited import evidence_at
+from graphkin.checking.audit import judge
 from graphkin.checking.slip_likelihood import Suspect, clearest, transcription_errors
+from graphkin.checking.slips import Evidence
+from graphkin.construction import plan_with_forces
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol, stated
@@ -96,6 +100,20 @@ def test_a_common_slip_is_called_by_its_name(values, name):
     entry = judged(SIXBAR, **values)
     assert "wrong" == entry["verdict"]
     assert name in entry["looks_like"]
+
+
+def test_a_force_is_right_without_and_with_a_load_that_begins_just_there():
+    engine = graphkin.read("engine-gas-force").to_dict()
+    engine["loads"]["gas"]["when"] = {"driver": [30, 180]}
+    del engine["flywheel"]
+    row = {"at": 30, "by": "computation"}
+    stated = [row | {"M_2": 66.423, "F_3/4": 1511.34}, row | {"M_2": -116.31, "F_3/4": 4546.2}]
+    scene = graphkin.read(engine | {"printed_rows": stated})
+    assert ["right"] * 4 == [value["verdict"] for value in graphkin.audit(scene).data["values"]]
+    motion = solver.solve(mechanism_of(scene))
+    drawn = Evidence.of(plan_with_forces(motion.structure, None, (), ()), motion, {})
+    for own in mechanism_of(scene).question.stated:
+        assert ["right"] * 2 == [value.verdict for value in judge(drawn, tuple(own.values.values()))]
 
 
 @pytest.mark.parametrize(
