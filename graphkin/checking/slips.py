@@ -303,18 +303,14 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     for shown, factor in units:
         yield Suspect(Phrase("slip factor", factor=shown), exact * factor, 0.02)
     for name, factor in (("rpm", RPM), ("degrees", DEGREE)):
-        if not measure.order and not (measure.is_angle and name == "degrees"):
-            continue
-        for times in (factor, 1 / factor):
+        for times in (factor, 1 / factor) if measure.order or (measure.is_angle and name == "degrees") else ():
             yield Suspect(Phrase(f"slip {name}"), exact * times, 0.01 if symbol.is_vector else 0.03)
             if second:
                 yield Suspect(Phrase(f"slip {name}"), exact * times**2, 0.01)
-    by_rpm = any(d.rpm for d in scene.drivers)
     for factor in (60.0, 1 / math.tau) if measure.order else ():  # n taken for n/60, or n/60 for omega
-        yield Suspect(Phrase("slip rpm"), exact * factor, 0.02 if by_rpm else 0.005)
-    if not plain:
-        yield Suspect(Phrase("slip double"), exact * 2, 0.02)
-        yield Suspect(Phrase("slip half"), exact / 2, 0.02)
+        yield Suspect(Phrase("slip rpm"), exact * factor, 0.02 if any(d.rpm for d in scene.drivers) else 0.005)
+    for name, factor in (("double", 2.0), ("half", 0.5)) if not plain else ():
+        yield Suspect(Phrase(f"slip {name}"), exact * factor, 0.02)
     if symbol.scope != "motion":
         return
     wanted = scene.question.sheet

@@ -28,7 +28,7 @@ from graphkin.papers.lesson import Lesson
 from graphkin.papers.pictures import mechanism_picture
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.words import say, word
+from graphkin.words import languages, say, word
 
 PLATFORMS = ("moodle", "gift", "prairielearn")
 BANKED = ("moodle.xml", "questions.gift")
@@ -80,8 +80,7 @@ class Question:
 def question_of(lesson: Lesson, planned: Plan, motion: Motion, name: str) -> Question:
     """The question of a lesson, drawn by a plan; quantities without a bound of the drawing's error are left out."""
     evidence = Evidence.of(planned, motion, lesson.tolerance)
-    first = lesson.first
-    scene = lesson.sheet.scene
+    first, scene = lesson.first, lesson.sheet.scene
     built = in_each(
         lesson.language, lambda each: word("between sentences", each).join(structure_words(scene.whole, each))
     )
@@ -103,7 +102,7 @@ def question_of(lesson: Lesson, planned: Plan, motion: Motion, name: str) -> Que
         drawing.content("png", DPI),
         clean(drawing.desc),
         tuple(asked),
-        word("sign of answers", first),
+        " ".join(word("sign of answers", each) for each in languages(lesson.language)),
         scene.name,
     )
 

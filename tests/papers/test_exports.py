@@ -174,6 +174,11 @@ def test_a_force_without_and_with_a_load_that_begins_have_a_field_each_in_prairi
     assert {"F_3_2", "F_3_2_plus"} == set(inputs.found)
 
 
+def test_a_question_in_both_languages_tells_the_rule_of_signs_in_both():
+    made = graphkin.handout("scotch-yoke", formats=("html",), positions=1, exports=("gift",), language="both")
+    assert all(said in made.question.sign_rule for said in ("counter-clockwise positive.", "逆时针为正。"))
+
+
 def test_a_coincident_point_that_two_quantities_need_is_explained_once():
     made = graphkin.handout(SCENE, find=["v_B@3/B@2", "y_B"], formats=("html",), positions=1, exports=("gift",))
     assert 1 == made.question.html.count(" is the point of link 2 ")
