@@ -174,6 +174,13 @@ def test_a_force_without_and_with_a_load_that_begins_have_a_field_each_in_prairi
     assert {"F_3_2", "F_3_2_plus"} == set(inputs.found)
 
 
+def test_a_number_without_a_unit_is_asked_without_brackets(made):
+    from graphkin.papers.exports import gift
+
+    asked = (replace(made.question.asked[0], unit=unit) for unit in ("", "mm/s"))
+    assert [False, True] == [" \\= ? (" in gift(replace(made.question, asked=(one,))) for one in asked]
+
+
 def test_a_question_in_both_languages_tells_the_rule_of_signs_in_both():
     made = graphkin.handout("scotch-yoke", formats=("html",), positions=1, exports=("gift",), language="both")
     assert all(said in made.question.sign_rule for said in ("counter-clockwise positive.", "逆时针为正。"))
