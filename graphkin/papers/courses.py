@@ -133,11 +133,11 @@ def scheme_of(name: str, scene: Mechanism, asked: Sequence[Symbol], count: int) 
 def read_at(
     place: str, value: float, scene: Mechanism, report: Report, asked: Sequence[Symbol]
 ) -> PlaceValues:
-    """The readings at a position, in scene units; 0 where the exact value is rounding alone."""
+    """The readings at a position, with the loads that begin just there too, in scene units; 0 for rounding alone."""
     read, exact = dict[Symbol, float](), dict[Symbol, float]()
     for row in report.rows:
         symbol, unit = row.symbol, row.symbol.unit(scene.units)
-        if symbol in asked:
+        if replace(symbol, plus=False) in asked:
             drawn, true = (abs(v) if symbol.is_vector else float(v.real) for v in (row.reading.value, row.true))
             read[symbol] = float(unit.of(drawn)) if row.true else 0.0
             exact[symbol] = float(unit.of(true))
@@ -373,7 +373,7 @@ def _value_tables(
         columns = tuple((("en", lesson.letters.vector(s) + f" {lesson.unit(s)}"),) for s in part)
         rows = tuple(
             (*named, number(place.driver, DIGITS),
-             *(number(place.read[s], DIGITS) if s in place.read else "–" for s in part))
+             *(" / ".join(number(place.read[one], DIGITS) for one in s.both if one in place.read) or "–" for s in part))
             for named, place in zip(cells, places, strict=True)
         )
         align = "l" * len(heads) + "r" * (1 + len(part))

@@ -8,8 +8,10 @@ import pytest
 from pypdf import PdfReader
 
 import graphkin
-from graphkin import CallError
-from graphkin.papers.courses import PlaceValues, Scheme, dealt_out
+from graphkin import CallError, solver
+from graphkin.checking.readings import report_on
+from graphkin.construction import execute, plan_with_forces
+from graphkin.papers.courses import PlaceValues, Scheme, dealt_out, read_at
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from tests import command
@@ -64,6 +66,16 @@ def test_the_template_of_a_course_is_read_by_the_audit(tmp_path):
     assert graphkin.audit(SCENE, answers=_file(tmp_path, text, "filled.csv")).ok
     blanks = re.findall(r'<div><span lang="en">([^<]*)</span></div>', made.files["01-A-1.html"].decode())
     assert ["Class, number", "Teacher", "Date"] == blanks  # the name is there
+
+
+def test_a_force_is_told_without_and_with_a_load_that_begins_just_there():
+    engine = graphkin.read("engine-gas-force").to_dict()
+    engine["loads"]["gas"]["when"] = {"driver": [30, 180]}
+    scene, asked = mechanism_of(graphkin.read(engine)), (Symbol.parse("M_2"),)
+    motion = solver.solve(scene)
+    report = report_on(execute(plan_with_forces(motion.structure, None, (), ())), motion)
+    read = read_at("1", 0.5, scene, report, asked).read
+    assert {"M_2": 66.423, "M_2+": -116.309} == {str(s): pytest.approx(v, abs=1e-3) for s, v in read.items()}
 
 
 def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
