@@ -6,9 +6,11 @@ import cmath
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import permutations
 from pathlib import Path
 
 import pytest
+import shapely
 
 import graphkin
 from graphkin.account.notation import notation_of
@@ -150,6 +152,14 @@ def test_no_stroke_of_a_centrode_leaps_across_the_figure() -> None:
     found = centrodes("slider-crank-offset", link="2", point="S2")
     curves = [t for t in things(found.figure) if isinstance(t, Polyline)]
     assert 8.0 > max(abs(b - a) for c in curves for a, b in zip(c.points, c.points[1:], strict=False))
+
+
+def test_a_centrode_that_its_centre_goes_over_twice_is_drawn_once() -> None:
+    found = centrodes("slotter-75-150", link="4")
+    moving = next(g for g in things(found.figure) if isinstance(g, Group) and g.id == "centrode-moving")
+    curves = [shapely.linestrings([(z.real, z.imag) for z in t.points]) for t in moving.children]
+    assert 1.0 < sum(curve.length for curve in curves)
+    assert [] == [one for one, other in permutations(curves, 2) if other.buffer(0.1).covers(one)]
 
 
 def test_the_moving_centrode_touches_the_fixed_one_at_the_centre() -> None:

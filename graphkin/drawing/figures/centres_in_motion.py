@@ -5,7 +5,8 @@ curve."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -135,6 +136,7 @@ def _centre(centres: Centres, pair: LinkPair, path: Places, name: RichText, k: i
 Branch = Sequence[complex]  # places (mm on paper, y up) that a pen joins without lifting
 
 CURVES_AROUND, REACH = 0.55, 1.3  # of the mechanism's size: how far around it curves are shown, and the centre at most
+RETRACED = 0.05  # mm: a pen that stays so near to its line goes over it again
 FIXED, MOVING, COUPLER = Stroke(0.5), Stroke(0.5, (3.0, 1.2)), Stroke(0.25, (0.8, 0.8))
 
 
@@ -191,10 +193,28 @@ def centrodes_figure(
 
 
 def _clipped(branches: Sequence[Branch], stroke: Stroke, box: Box) -> tuple[Primitive, ...]:
-    """The parts of curves inside a box, each as one polyline."""
+    """The parts of curves inside a box, each as one polyline; where a pen would go back over its line it is lifted, for
+    dashes over dashes would be a solid line."""
     import shapely  # a centrode is cut at the panel's edge; few figures need it
 
-    places = [np.conj(np.array(branch)) for branch in branches if len(branch) > 1]
-    curves = [shapely.linestrings(z.real, z.imag) for z in places]
-    inside = shapely.get_parts(shapely.clip_by_rect(curves, box.left, box.top, box.right, box.bottom))
-    return tuple(Polyline(tuple(complex(x, y) for x, y in part.coords), stroke) for part in inside)
+    def inside(curves: Iterable[Places]) -> list[shapely.LineString]:
+        lines = [shapely.linestrings(z.real, z.imag) for z in curves if len(z) > 1]
+        return [*shapely.get_parts(shapely.clip_by_rect(lines, box.left, box.top, box.right, box.bottom))]
+
+    whole = [np.conj(np.array(branch)) for branch in branches]
+    pieces = inside(piece for places in whole for piece in _one_way(places))
+    drawn, again = shapely.Polygon(), set[int]()
+    for k, piece in sorted(enumerate(pieces), key=lambda numbered: -numbered[1].length):
+        if drawn.covers(piece):
+            again.add(k)
+        else:
+            drawn = drawn.union(piece.buffer(RETRACED))
+    parts = [piece for k, piece in enumerate(pieces) if k not in again] if again else inside(whole)
+    return tuple(Polyline(tuple(complex(x, y) for x, y in part.coords), stroke) for part in parts)
+
+
+def _one_way(places: Places) -> list[Places]:
+    """A curve in pieces on which its pen does not turn back."""
+    steps = np.diff(places)
+    back = np.flatnonzero((steps[1:] * steps[:-1].conj()).real < 0.0) + 1
+    return [places[low : high + 1] for low, high in pairwise([0, *back.tolist(), len(places) - 1])]
