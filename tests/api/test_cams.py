@@ -189,6 +189,17 @@ def test_the_velocity_has_the_sign_with_which_the_lift_changes(omega, velocity):
     assert f"greatest velocity: {velocity} at φ = 90°" in said
 
 
+@pytest.mark.parametrize(("omega", "told"), [
+    (10, "the cam turns counter-clockwise"), (0, "the cam turns counter-clockwise"),
+    (-10, "φ grows counter-clockwise, against the rotation of the cam"),
+])
+def test_a_cam_is_not_said_to_turn_with_its_degrees_where_its_driver_turns_it_back(omega, told):
+    scene = graphkin.read("cam-flat-face").to_dict()
+    scene["driver"] = {"link": "1", "angle": 0, "omega": omega}
+    figure = graphkin.draw(scene, figures=["cam"]).figures["cam"]
+    assert any(text.string.endswith("; " + told) for text in walk(figure.children) if isinstance(text, Text))
+
+
 def test_a_cam_whose_speed_changes_has_its_rates_by_the_angle():
     said = with_law(HALF, "harmonic", driver_alpha=4).sentences("en")
     assert "greatest velocity: 12 mm/rad at φ = 90°" in said  # half the rise
