@@ -104,7 +104,7 @@ def polygon_with_insets(
     names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
     arrows = [(step, here.drawn(vector), names.get(f"label-{vector.symbol.id}")) for step, vector in here.in_order]
     numbers = Piece({"labels": step_numbers(arrows, keyed, panel, around)})
-    numerals = polygon.ring_numerals(here, enlarged, around + obstacles_of(numbers.drawn))
+    numerals = polygon.ring_numerals(polygon.rings(here, enlarged), around + obstacles_of(numbers.drawn), panel)
     return joined((figure, numbers, numerals, *pieces)), terms[len(shown) :]
 
 
@@ -250,12 +250,11 @@ def mechanism_with_inset(
     if near is None or not boxes:
         return joined((under, named))
     one, two = (sheet.points[ref] for ref in near)
-    ring = Circle(origin + on_page(one + two) / 2, abs(one - two) / 2 + RING_ABOUT, stroke=strokes.CONSTRUCTION)
-    ringed = Group((ring,), id="ring-mechanism", classes=("ring",))
+    circle = Circle(origin + on_page(one + two) / 2, abs(one - two) / 2 + RING_ABOUT, stroke=strokes.CONSTRUCTION)
+    ring = Group((circle,), id="ring-mechanism", classes=("ring",))
     # the names anew: they keep off the ring and the inset
-    named = with_crowd(joined((whole, Piece({"labels": (ringed,)}))), panel, boxes)[0]
-    around = obstacles_of(named.drawn) + Obstacles(areas=tuple(boxes))
-    numeral = polygon.ring_numeral(1, "mechanism", ring.centre, ring.radius, around, panel)
+    named = with_crowd(joined((whole, Piece({"labels": (ring,)}))), panel, boxes)[0]
+    numeral = polygon.ring_numerals([ring], obstacles_of(named.drawn) + Obstacles(areas=tuple(boxes)), panel)
     return joined((under, named, numeral, _mechanism_detail(sheet, letters, language, near, boxes[0])))
 
 

@@ -379,29 +379,23 @@ def rings(here: PolygonOnPage, enlarged: Sequence[Detail]) -> Iterator[Group]:
         yield Group((ring,), id=f"ring-{here.diagram}-{order}", classes=("ring",), step=d.crowd, since=here.since(d))
 
 
-def ring_numerals(here: PolygonOnPage, enlarged: Sequence[Detail], around: Obstacles) -> Piece:
-    """The numerals at all rings."""
+def ring_numerals(rings: Iterable[Group], around: Obstacles, panel: Box) -> Piece:
+    """At each ring the numeral that it shares with its inset, where everything ``around`` leaves room; further off with
+    a leader."""
     pieces = []
-    for order, d in enumerate(enlarged, 1):
-        name, radius = f"{here.diagram}-{order}", d.radius + RING
-        pieces.append(ring_numeral(order, name, here.at(d.centre), radius, around, here.panel, here.since(d)))
-        around += obstacles_of(pieces[-1].drawn)
+    for order, ring in enumerate(rings, 1):
+        (circle,) = ring.children
+        assert isinstance(circle, Circle)
+        classes, since = ("label", "ring"), ring.since
+        text = Text(0j, plain(roman(order), NUMERAL), id=f"label-{ring.id}", classes=classes, since=since)
+        box = text_box(text)
+        found = beside_ring(box, circle.centre, circle.radius, around, panel)
+        if found is not None:
+            middle, leader = found
+            led = (Group((Line(*leader, strokes.LEADER),), since=since),) if leader else ()
+            pieces.append(Piece({"labels": (*led, text._replace(at=middle - box.centre))}))
+            around += obstacles_of(pieces[-1].drawn)
     return joined(pieces)
-
-
-def ring_numeral(
-    order: int, name: str, centre: complex, radius: float, around: Obstacles, panel: Box, since: int | None = None
-) -> Piece:
-    """At a ring the numeral that it shares with its inset, where everything ``around`` leaves room; further off with a
-    leader."""
-    text = Text(0j, plain(roman(order), NUMERAL), id=f"label-ring-{name}", classes=("label", "ring"), since=since)
-    box = text_box(text)
-    found = beside_ring(box, centre, radius, around, panel)
-    if found is None:
-        return Piece()
-    middle, leader = found
-    led = (Group((Line(*leader, strokes.LEADER),), since=since),) if leader else ()
-    return Piece({"labels": (*led, text._replace(at=middle - box.centre))})
 
 
 def _images(here: PolygonOnPage) -> Iterator[Primitive]:
