@@ -69,3 +69,9 @@ def test_the_arrow_at_a_driven_pin_in_a_slot_is_named_as_its_given_rate(scene: d
     figure = graphkin.draw(scene, figures=("mechanism",)).figures["mechanism"]
     (label,) = (t for t in walk(figure.children) if isinstance(t, Text) and t.id.startswith("label-driver"))
     assert named == label.string
+
+
+def test_vectors_too_short_to_be_drawn_at_one_place_are_told_with_their_own_values() -> None:
+    figure = graphkin.draw("sixbar-AE70", at=-58.9, figures=("acceleration",)).figures["acceleration"]
+    told = [t.string.replace(" ", "") for t in walk(figure.children) if isinstance(t, Text)]
+    assert any(line.endswith("aBAn=aB=4000mm/s²,aF1=3887mm/s²") for line in told)

@@ -508,14 +508,16 @@ def _name(here: PolygonOnPage, group: Sequence[Vector], letters: Mapping[complex
     if not vectors:
         return None
     first = vectors[0]
-    written = here.letters.vector if short else here.letters.arrow
-    name = spaced(sign(" = "), (written(v.symbol) for v in vectors))
     id, step = f"label-{first.symbol.id}", here.vectors[first.symbol][0]
     if short:
-        unit = unit_of(here.sheet, here.diagram)
-        size = f"{number(length * here.sheet.scales.of(here.diagram) / unit.si, 4)} {unit.written}"
-        value = rich(name + (sign(" = 0") if length == 0.0 else f" = {size}"), LETTER)
-        return Label.of(value, here.at(first.tip), id, rank=3, since=step, key=step_number(step))
+        unit, sizes = unit_of(here.sheet, here.diagram), dict[str, list[RichText]]()
+        for vector in vectors:
+            size = number(abs(vector.span) * here.sheet.scales.of(here.diagram) / unit.si, 4)
+            told = f" = {size} {unit.written}" if vector.span else ""
+            sizes.setdefault(told, []).append(here.letters.vector(vector.symbol))
+        name = spaced(", ", (spaced(sign(" = "), same) + (told or sign(" = 0")) for told, same in sizes.items()))
+        return Label.of(rich(name, LETTER), here.at(first.tip), id, rank=3, since=step, key=step_number(step))
+    name = spaced(sign(" = "), (here.letters.arrow(v.symbol) for v in vectors))
     resultants = all(v.role == "resultant" for v in vectors)
     colour = here.colours[first.symbol]
     runs = rich(name)
