@@ -7,8 +7,8 @@ import http.client
 import json
 import logging
 import random
-import signal
 import socket
+from concurrent.futures import ThreadPoolExecutor
 from urllib.parse import urlsplit
 
 import pytest
@@ -176,10 +176,14 @@ def test_a_port_that_is_taken_is_said(url: str, tmp_path) -> None:
 
 
 def test_a_server_that_is_interrupted_says_nothing_of_answers_that_it_cuts_off() -> None:
-    with socket.create_server(("127.0.0.1", 0)) as listening:
-        running = _run(application(Shelf(), Address(0)), listening, lambda: signal.raise_signal(signal.SIGINT))
-        with pytest.raises(KeyboardInterrupt):
-            asyncio.run(running)
+    def interrupted() -> None:
+        raise EOFError
+
+    # the loop of a browser runs in this thread
+    with socket.create_server(("127.0.0.1", 0)) as listening, ThreadPoolExecutor(1) as alone:
+        running = alone.submit(asyncio.run, _run(application(Shelf(), Address(0)), listening, interrupted))
+        with pytest.raises(EOFError):
+            running.result()
     assert not logging.getLogger("uvicorn.error").isEnabledFor(logging.ERROR)
 
 
