@@ -170,6 +170,9 @@ def test_a_wrong_length_is_told_at_its_line_and_the_figures_stay(page) -> None:
 def test_the_form_changes_the_text(page) -> None:
     open_scene(page)
     page.click("[data-tab=form]")
+    page.fill("[name='links.3.length']", "")
+    page.keyboard.press("Enter")
+    assert "0.3" == page.input_value("[name='links.3.length']")
     page.fill("[name='links.3.length']", "0.31")
     page.keyboard.press("Enter")
     until(page, "document.getElementById('board').board.editor.text.includes('length = 0.31\\n')")

@@ -213,7 +213,7 @@ export async function mount(root, send, { kept = memory(), nonce = "", wrote = (
   };
   // a slider that comes back to where it was taken changes nothing for the browser
   for (const end of ["change", "pointerup", "pointercancel"]) slider.addEventListener(end, letGo);
-  value.addEventListener("change", () => drive.to(Number(value.value), false));
+  value.addEventListener("change", () => drive.to(value.valueAsNumber, false)); // an emptied field gives no value
   const play = () => {
     if (!last) return undefined;
     state.playing = !state.playing;

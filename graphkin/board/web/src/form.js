@@ -17,7 +17,7 @@ export function sceneForm(parent, { word, change }) {
   };
   const read = (path, before, input) => {
     let value = input.value;
-    if (typeof before === "number") value = Number(value);
+    if (typeof before === "number") value = input.valueAsNumber;
     else if (typeof before === "object") {
       try {
         value = JSON.parse(value);
@@ -30,7 +30,10 @@ export function sceneForm(parent, { word, change }) {
         return;
       }
     }
-    if (typeof value === "number" && !Number.isFinite(value)) return;
+    if (typeof value === "number" && !Number.isFinite(value)) { // an emptied field gives no value
+      input.value = before;
+      return;
+    }
     input.setCustomValidity("");
     change({ [path]: value });
   };
