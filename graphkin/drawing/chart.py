@@ -94,7 +94,7 @@ _TAG = re.compile("<[^>]*>")
 _SIZE = re.compile(r"font-size: ([\d.]+)px")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class ChartPage(Kept):
     """A page drawn by matplotlib: size in mm, title and description in words, language, facts for programs.
 

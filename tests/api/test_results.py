@@ -63,7 +63,8 @@ def test_a_notebook_shows_the_picture_above_the_readings():
     drawn = made("draw")
     page = drawn._repr_html_()
     assert page.index("<svg") < page.index("<table>")
-    assert len(repr(drawn.figures)) < 150 * len(drawn.figures)
+    for figures in (drawn.figures, made("sweep").figures):
+        assert len(repr(figures)) < 160 * len(figures)
 
 
 def test_a_given_rate_is_read_nowhere_on_the_paper():

@@ -22,7 +22,12 @@ TEXTS = ("glyphs", "outlines")
 class Kept:
     """A drawing or a chart: it can be saved in a file, or shown in a notebook."""
 
+    width: float
+    height: float
     title: str
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.title!r}: {self.width:.5g} x {self.height:.5g} mm>"
 
     def content(self, format: str, dpi: float = 200.0, text: str = "glyphs") -> bytes:
         """The page as a file of a format, "svg", "pdf", "png" (at ``dpi``) or "dxf"; the letters of an SVG as text with
@@ -65,8 +70,8 @@ class Kept:
         raise NotImplementedError
 
 
-@dataclass(frozen=True)
-class Drawing(Page, Kept):
+@dataclass(frozen=True, repr=False)
+class Drawing(Kept, Page):
     """A page of primitives that can be saved; ``further`` are its continuation pages: they follow it in a PDF, and are
     files of their own in other formats.
 
@@ -75,9 +80,6 @@ class Drawing(Page, Kept):
 
     def __hash__(self) -> int:
         return hash((self.width, self.height, self.title, len(self.children)))
-
-    def __repr__(self) -> str:
-        return f"<Drawing {self.title!r}: {self.width:.5g} x {self.height:.5g} mm>"
 
     further: tuple[Drawing, ...] = ()
 
