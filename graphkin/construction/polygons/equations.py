@@ -8,6 +8,7 @@ The angular rates follow from the found vectors (sources: see `polygons`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Literal
 
 from graphkin.construction.board.sheet import Equation, Rate
@@ -129,7 +130,7 @@ def _open(side: Side) -> list[Term]:
 
 
 def _written(side: Side) -> tuple[Term, ...]:
-    return tuple(changed(part, along=0j, span=None) for part in _parts(side))
+    return tuple(replace(part, along=0j, span=None) for part in _parts(side))
 
 
 def _from_pole(plot: Polygons, order: Order, side: Side) -> tuple[Term, ...]:

@@ -360,7 +360,7 @@ class Polygons:
         at = self.own_values.found(symbol, 0j, at)
         self.ends[order][ref] = at
         if not self.held:
-            step = changed(image, ref=label, strokes=(Mark(label, at), *image.strokes))
+            step = replace(image, ref=label, strokes=(Mark(label, at), *image.strokes))
         elif image.reason in ("same place", "translation"):
             step = Step("join", "pole to end", order, symbol=symbol)
         else:
