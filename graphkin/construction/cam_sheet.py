@@ -121,22 +121,22 @@ def division(cam: LawCam, degree: float, mm: float, hand: Instrument = EXACT) ->
 def _on_line(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instrument) -> CamStation | None:
     """The line of a sliding follower turned back, and its point on it; the normal is still to be drawn."""
     laid = hand.length(given.lift * mm)
-    way = hand.angle(given.way)
+    travel = hand.angle(given.way)
     away = given.line - given.way * dot(given.way, given.line)  # square to the line, to its foot
     side = 1j if dot(away, 1j * given.way) >= 0 else -1j
-    foot = side * way * hand.compass(abs(away)) if abs(away) > TINY * cam.base * mm else 0j
+    foot = side * travel * hand.compass(abs(away)) if abs(away) > TINY * cam.base * mm else 0j
     if cam.flat:  # the face touches the base circle, wherever its line runs
-        start = foot + base * way
+        start = foot + base * travel
     elif not beyond_rounding(base, abs(foot)):
         start = foot
     else:
-        crossed = cross_line_arc(foot, way, 0j, base)
+        crossed = cross_line_arc(foot, travel, 0j, base)
         if crossed is None:
             return None
         start = crossed[0]
-    point = hand.point(start + way * laid)
+    point = hand.point(start + travel * laid)
     lift = hand.read(abs(point - start)) / mm * (1 if laid >= 0 else -1)
-    return replace(given, lift=lift, line=foot, base=start, point=point, way=way)
+    return replace(given, lift=lift, line=foot, base=start, point=point, way=travel)
 
 
 def _on_arc(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instrument) -> CamStation | None:
@@ -155,5 +155,5 @@ def _on_arc(cam: LawCam, given: CamStation, mm: float, base: float, hand: Instru
     point = hand.point(pivot + arm * bar)
     swing = cmath.phase(hand.read_direction(bar) / unit(start - pivot))
     lift = swing * (1 if cmath.phase(turned) * given.lift >= 0 else -1) if abs(swing) > ROUNDING else 0.0
-    way = hand.direction(bar * (given.way / unit(given.point - given.line)))
-    return replace(given, lift=lift, line=pivot, base=start, point=point, way=way)
+    travel = hand.direction(bar * (given.way / unit(given.point - given.line)))
+    return replace(given, lift=lift, line=pivot, base=start, point=point, way=travel)

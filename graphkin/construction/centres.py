@@ -524,8 +524,8 @@ def _otherwise(
     if abs(strength) <= AT_REST * largest:
         return Centre(pair, "undetermined", why=Phrase("centre no motion", **links))
     error = MEASURED * max(1.0, SLOW * largest / abs(strength)) + (lost + other_lost) / abs(strength)
-    way: Literal["superposition", "velocity polygon"] = "superposition" if diagram.links.kept else "velocity polygon"
-    return Centre(pair, "found", place, way=way, why=why, error=error)
+    method: Literal["superposition", "velocity polygon"] = "superposition" if diagram.links.kept else "velocity polygon"
+    return Centre(pair, "found", place, way=method, why=why, error=error)
 
 
 # velocities by centres

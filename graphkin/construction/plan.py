@@ -324,26 +324,26 @@ class Stages:
                 numbers.setdefault(symbol, number)
         return numbers
 
-    def to(self, symbol: Symbol, own: Own) -> Polygons | None:
-        """The polygons up to a vector or rate, drawn from a person's own values; None where no element leads to it.
+    def to(self, symbol: Symbol, answers: Own) -> Polygons | None:
+        """The polygons up to a vector or rate, drawn from a person's answers; None where no element leads to it.
         Raises as `execute`."""
         number = self.found_by.get(symbol)
         if number is None:
             return None
         if number < len(self.after):
-            return self._from(number, own)
-        polygons = self._from(number - 1, own).again(EXACT)
+            return self._from(number, answers)
+        polygons = self._from(number - 1, answers).again(EXACT)
         draw_asked(polygons, self.planned.asked)
         return polygons
 
-    def _from(self, number: int, own: Own) -> Polygons:
-        """The polygons after a number of elements, drawn from own values."""
-        own = {s: value for s, value in own.items() if self.found_by.get(s, number + 1) <= number}
-        if not own:
+    def _from(self, number: int, answers: Own) -> Polygons:
+        """The polygons after a number of elements, drawn from a person's answers."""
+        answers = {s: value for s, value in answers.items() if self.found_by.get(s, number + 1) <= number}
+        if not answers:
             return self.after[number][1]
-        key = number, frozenset(own.items())
+        key = number, frozenset(answers.items())
         if key not in self.others:
-            polygons = replace(self._from(number - 1, own).again(EXACT), own_values=self.own_values(own))
+            polygons = replace(self._from(number - 1, answers).again(EXACT), own_values=self.own_values(answers))
             draw_element(polygons, *self.in_order[number - 1])
             while len(self.others) >= self.KEPT:
                 del self.others[next(iter(self.others))]

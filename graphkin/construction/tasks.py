@@ -120,17 +120,17 @@ class TaskBoard(Board):
         x, y = (self.instrument.length(self.mm(side)) for side in (at.real, at.imag))
         return self.instrument.point(complex(x, y))
 
-    def meet(self, what: str, p: complex, d: complex, q: complex, e: complex) -> complex:
+    def meet(self, key: str, p: complex, d: complex, q: complex, e: complex) -> complex:
         """The crossing of two lines, each through a point along a direction.  Raises Unsolvable where they are
         parallel."""
-        return self.instrument.crossing(what, p, d, q, e, "not drawn", "other data")
+        return self.instrument.crossing(key, p, d, q, e, "not drawn", "other data")
 
-    def cut(self, what: str, p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex]:
+    def cut(self, key: str, p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex]:
         """The points where a line cuts a circle, the point farther along d first.  Raises Unsolvable where it does not
         cut it."""
         crossings = cross_line_arc(p, d, centre, radius)
         if crossings is None:
-            raise not_drawn(what, "the line does not reach the circle", "other data")
+            raise not_drawn(key, "the line does not reach the circle", "other data")
         return self.instrument.point(crossings[0]), self.instrument.point(crossings[1])
 
     def bisector(self, a: complex, b: complex) -> tuple[complex, complex]:
@@ -143,9 +143,9 @@ class TaskBoard(Board):
         self.step("read", "design measured", *strokes, points=(*bars,), radii=lengths)
 
 
-def not_drawn(what: str, finding: str, wanted: str) -> Unsolvable:
+def not_drawn(key: str, finding: str, wanted: str) -> Unsolvable:
     """The error of a task that has no drawing: the key of the file, and the phrases of its finding and of a remedy."""
-    return Unsolvable("not drawn", Problem(what, Phrase(finding), Phrase(wanted)))
+    return Unsolvable("not drawn", Problem(key, Phrase(finding), Phrase(wanted)))
 
 
 def measured(sheet: Sheet) -> dict[str, float]:

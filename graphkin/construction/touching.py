@@ -149,15 +149,15 @@ class Touching:
     @cached_property
     def cams(self) -> tuple[CamOnPaper, ...]:
         """The cams with the followers that they touch."""
-        found = []
+        cams = []
         for pair in self.scene.cams:
             if self.poses.keys() >= {*pair.bodies}:
                 pose = self.poses[pair.link]
                 at = station(pair, pair.sense * phase(pose.axis))
                 point, contact = (pose.origin + pose.axis * z * self.mm for z in (at.point, at.contact))
-                found.append(CamOnPaper(pair, self.profile(pair), point, contact, pose.axis * at.normal,
+                cams.append(CamOnPaper(pair, self.profile(pair), point, contact, pose.axis * at.normal,
                                         pair.roller * self.mm))
-        return tuple(found)
+        return tuple(cams)
 
     def profile(self, cam: LawCam) -> tuple[complex, ...]:
         """The profile of a cam on paper."""
@@ -253,26 +253,26 @@ def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
     back = cmath.rect(1.0, -cam.sense * degree)
     motion = cam.motion
     course, base = cam.course(lift), cam.course(Lift(0.0, 0.0, 0.0, 0.0)).point
-    point, way, outward = course.point, course.way, 1j * course.tangent
+    point, travel, outward = course.point, course.way, 1j * course.tangent
     if isinstance(motion, SlidingFollower):
         line = motion.foot - cam.axis
-        centre: complex | None = -1j * way * cam.sense * lift.slope
+        centre: complex | None = -1j * travel * cam.sense * lift.slope
     else:
         line = motion.centre - cam.axis
         ratio = motion.side * cam.sense * lift.slope
         centre = None if ratio == 1.0 else -ratio * line / (1.0 - ratio)
     if cam.flat:
         assert centre is not None
-        normal, contact = way, centre + way * dot(way, point)
+        normal, contact = travel, centre + travel * dot(travel, point)
     else:
         # square to the motion of the point as seen from the cam, and so through the instant centre
         normal = outward if centre is None else point - centre
-        normal = unit(normal) if normal else way
+        normal = unit(normal) if normal else travel
         normal = -normal if dot(normal, outward) < 0.0 else normal
         contact = point - cam.roller * normal
     centre = None if centre is None else centre * back
     return CamStation(degree, lift.lift, line * back, base * back, point * back, centre, normal * back, contact * back,
-                      way * back)
+                      travel * back)
 
 
 @lru_cache(maxsize=64)

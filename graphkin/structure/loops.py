@@ -417,9 +417,9 @@ def _rates(matrix: Matrix, left_open: Vectors, sizes: Matrix) -> tuple[Matrix, M
     """The right side of a matrix equation and its solution, 0 where terms of these ``sizes`` leave rounding alone."""
     sizes, right = np.repeat(sizes, 2), _components(left_open)
     right = np.where(np.abs(right) > ROUNDING * sizes, right, 0.0)
-    found = np.linalg.solve(matrix, right)
-    most = np.abs(np.linalg.inv(matrix)) @ (sizes + np.abs(matrix) @ np.abs(found))
-    return right, np.where(np.abs(found) > ROUNDING * most, found, 0.0)
+    rates = np.linalg.solve(matrix, right)
+    most = np.abs(np.linalg.inv(matrix)) @ (sizes + np.abs(matrix) @ np.abs(rates))
+    return right, np.where(np.abs(rates) > ROUNDING * most, rates, 0.0)
 
 
 def _right_side(loops: Sequence[Loop], turning: Turning, rates: Rates, order: int) -> tuple[Vectors, Matrix]:

@@ -85,14 +85,14 @@ class Instrument:
         return at + complex(self._error(across), self._error(across))
 
     def crossing(
-        self, what: object, p: complex, d: complex, q: complex, e: complex, status: str = "dead point",
+        self, target: object, p: complex, d: complex, q: complex, e: complex, status: str = "dead point",
         wanted: str = "move the driver off this position",
     ) -> complex:
         """Prick the place (mm) where two drawn lines meet, each through a point along a vector.
 
         Parameters
         ----------
-        what : the thing that is found there, as an error names it
+        target : the point or vector found there, as an error names it
         status, wanted : of the error, and its remedy
 
         Raises
@@ -101,7 +101,7 @@ class Instrument:
         """
         at = cross_lines(p, d, q, e)
         if at is None or abs(cross(d, e)) < PARALLEL * abs(d) * abs(e):
-            raise Unsolvable(status, Problem(str(what), "the two lines that should find it are", wanted))
+            raise Unsolvable(status, Problem(str(target), "the two lines that should find it are", wanted))
         return self.point(at)
 
     @property

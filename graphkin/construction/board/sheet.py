@@ -539,10 +539,10 @@ class Board:
         """The length of a vector, or the distance of two points of the mechanism (mm), read when it is first needed."""
         if self.instrument.errs is None:
             return self.instrument.read(mm)  # it shows the same each time
-        thing = either_way(between) if isinstance(between, Symbol) else between
-        if thing not in self.readings:
-            self.readings[thing] = self.instrument.read(mm)
-        return self.readings[thing]
+        span = either_way(between) if isinstance(between, Symbol) else between
+        if span not in self.readings:
+            self.readings[span] = self.instrument.read(mm)
+        return self.readings[span]
 
     def pricked(self, diagram: DiagramName, mark: Mark) -> bool:
         """Whether an end point is drawn already: two lines have met in it, or the last vector ends in it and gets its
@@ -564,7 +564,7 @@ class Board:
         self.noticed.append(Remark(diagram, key, of, size, mm, finds))
 
     def cross(
-        self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str | Symbol
+        self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, target: str | Symbol
     ) -> complex:
         """The crossing of the line through p along d and the line through q along e, drawn as ruler lines.
 
@@ -573,8 +573,8 @@ class Board:
         Unsolvable : "dead point": the lines are parallel and meet nowhere
         """
         d, e = self.instrument.direction(d), self.instrument.direction(e)
-        at = self.instrument.crossing(what, p, d, q, e)
-        finds = what if isinstance(what, Symbol) else Symbol("v", PointRef(what))
-        self.notice(diagram, "sharp crossing", result=what, size=abs(cross(d, e)), finds=finds)
-        self.notice(diagram, "off the sheet", result=what, mm=max(abs(at - p), abs(at - q)))
+        at = self.instrument.crossing(target, p, d, q, e)
+        finds = target if isinstance(target, Symbol) else Symbol("v", PointRef(target))
+        self.notice(diagram, "sharp crossing", result=target, size=abs(cross(d, e)), finds=finds)
+        self.notice(diagram, "off the sheet", result=target, mm=max(abs(at - p), abs(at - q)))
         return at

@@ -117,18 +117,18 @@ GIVEN = Size("given")
 def plain_in(language: str) -> Callable[[object], str]:
     """The writer of symbols, points, sizes and directions as plain text of a language: ``v_B@3/B@2``, ``⊥BC``."""
 
-    def written(thing: object) -> str:
-        if thing == GIVEN:
+    def written(term: object) -> str:
+        if term == GIVEN:
             return word("given size", language)
-        if isinstance(thing, PointNames) and not thing.bar:
-            return say(listed(thing.names), language)
-        if isinstance(thing, Symbol) and thing.kind in ("omega", "alpha") and not thing.at:
-            return str(rate(thing.kind, thing.link + thing.other))
-        if isinstance(thing, Symbol) and thing.seen:
-            return str(replace(thing, seen="")) + word("symbol seen", language).format(link=thing.seen)
-        if isinstance(thing, Size) and isinstance(thing.factor, Symbol):
-            thing = thing.written(written(thing.factor))
-        return str(thing)
+        if isinstance(term, PointNames) and not term.bar:
+            return say(listed(term.names), language)
+        if isinstance(term, Symbol) and term.kind in ("omega", "alpha") and not term.at:
+            return str(rate(term.kind, term.link + term.other))
+        if isinstance(term, Symbol) and term.seen:
+            return str(replace(term, seen="")) + word("symbol seen", language).format(link=term.seen)
+        if isinstance(term, Size) and isinstance(term.factor, Symbol):
+            term = term.written(written(term.factor))
+        return str(term)
 
     return written
 
@@ -424,10 +424,10 @@ class Step(OnPaper):
                 return {"amount": true_minus(f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}")}
             case "sum of rates":
                 known, of = self.links
-                own = self.link == of
-                told = increase(self.value, self.other if own else -self.other)
-                return {"known": known, "sign": "+" if own else "−", "told": told,
-                        "between": self.link + known if own else known + self.link}
+                direct = self.link == of
+                total = increase(self.value, self.other if direct else -self.other)
+                return {"known": known, "sign": "+" if direct else "−", "told": total,
+                        "between": self.link + known if direct else known + self.link}
             case "given on plan":
                 signed = "−" * (self.value < 0.0) + printed(on_paper(self.mm))
                 return {"told": printed(amount(self.value, 4)), "signed": signed}
@@ -440,9 +440,9 @@ class Step(OnPaper):
             case "polygon":
                 return _assumed([pair for pair in self.rates if pair[1]] or self.rates)
             case "open ends" | "plans":
-                open_at = [f"{name} ({way})" for name, way in zip(self.closing, self.ways, strict=True)]
+                open_at = [f"{name} ({direction})" for name, direction in zip(self.closing, self.ways, strict=True)]
                 gaps = clauses([listed([true_minus(f"{mm:.2f}") for mm in row]) for row in self.apart])
-                of_links = [(rate(found.kind, found.link), value) for found, value in self.rates]
+                of_links = [(rate(symbol.kind, symbol.link), value) for symbol, value in self.rates]
                 rates = listed([name + f" = {printed(amount(value, 5))}" for name, value in of_links])
                 parted = {"open_at": listed(open_at), "apart": gaps, "names": listed([name for name, _ in of_links])}
                 return {**parted, "rates": rates, **_assumed(self.rates)}

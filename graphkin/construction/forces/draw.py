@@ -140,10 +140,10 @@ def _state(held: Sheet, hand: Instrument, scales: ForceScales, known: tuple[Forc
         else:
             groups.append(of_larger_group(cut, element))
     loads = (load for load in known if not load.turned)
-    found = [*loads, *_of_joints(cut), *cut.balances]
-    forces = [load for load in found if load.symbol.is_vector]
+    acting = [*loads, *_of_joints(cut), *cut.balances]
+    forces = [load for load in acting if load.symbol.is_vector]
     vectors = {load.symbol: load.force for load in forces}
-    moments = {load.symbol: load.moment for load in found if not load.symbol.is_vector}
+    moments = {load.symbol: load.moment for load in acting if not load.symbol.is_vector}
     per_mm = {load.symbol: next((drawn_at[name] for name in drawn_at if name in (load.link, load.off)), common)
               for load in forces}
     for k, group in enumerate(groups):  # what was read of forces of pairs, by their names

@@ -137,14 +137,14 @@ class CutFree:
         letters = {place: chr(ord("a") + int(np.abs(np.array(corners) - place).argmin())) for place in places}
         polygon = tuple(changed(v, ends=(letters[v.tail], letters[v.tip])) for v in chain)
         known = tuple(v for v in polygon if v.by != "closing" and abs(v.span) > ZERO)
-        found = tuple(v for v in reversed(polygon) if v.by == "closing")
+        closing = tuple(v for v in reversed(polygon) if v.by == "closing")
         self.group = changed(self.group, polygon=polygon)
         finds = self.read_off(chain)
         if known:
             self.do(ForceStep("lay off", "known forces", "force", known))
         if len(chain) > 1:
-            done = ForceStep("join", "closed", "force", found, links=self.group.links, finds=finds)
-            self.do(done if len(found) == 1 else changed(done, verb="cross", reason="closed by lines"))
+            done = ForceStep("join", "closed", "force", closing, links=self.group.links, finds=finds)
+            self.do(done if len(closing) == 1 else changed(done, verb="cross", reason="closed by lines"))
 
     def inside(self, links: tuple[str, ...], chain: Chain) -> None:
         """The polygon of some links of a group, closed by the force inside."""
@@ -593,20 +593,20 @@ def of_larger_group(cut: CutFree, group: LargerGroup) -> ForceGroup:
         at, square = drawn.foot(slide), 1j * drawn.along(slide)
         force = ForceVector(drawn.of_slide(slide), link=slide.a, force=square, at=at, off=slide.b)
         unknowns += [force, changed(force, symbol=drawn.of_slide(slide, "M"), force=0j, moment=1.0)]
-    found = iter(_solved(cut, group.members, [*unknowns, *balances]))
+    solution = iter(_solved(cut, group.members, [*unknowns, *balances]))
     forces = list[ForceVector]()
     for point, pin in pins:
-        both = next(found).force + next(found).force
+        both = next(solution).force + next(solution).force
         forces.append(changed(pin, force=both))
         cut.pins[point, pin.link] += both
         if pin.off:
             cut.pins[point, pin.off] -= both
     for slide in slides:
-        of_slide, couple = next(found), next(found)
+        of_slide, couple = next(solution), next(solution)
         forces.append(of_slide)
         cut.set_slide(slide, of_slide, couple, inside)
         cut.shift(of_slide, couple.moment)
-    for balance, acting in zip(balances, found, strict=True):
+    for balance, acting in zip(balances, solution, strict=True):
         cut.set_balance(balance, acting, inside)
         if acting.symbol.is_vector:
             forces.append(acting)

@@ -284,8 +284,8 @@ def _mark_special(plot: Polygons, move: VectorChain) -> None:
 
 def _free_letters(plot: Polygons, group: LargerGroup) -> Sequence[str]:
     """Letters that no point has; special points of contours, and of other groups and contours, may be planned only."""
-    contours, own = [rest for _, rest in plot.contours.get(group, ())], {plot.held, *group.members}
-    plans = (plan for other, plan in plot.plans.items() if other in contours or own.isdisjoint(other.members))
+    contours, links = [rest for _, rest in plot.contours.get(group, ())], {plot.held, *group.members}
+    plans = (plan for other, plan in plot.plans.items() if other in contours or links.isdisjoint(other.members))
     planned = (move.end.point for plan in plans for move in plan.moves if move.is_special)
     taken = {*plot.places, *planned, *(p for link in plot.links.values() for p in link.points)}
     return [name for name in LETTERS if name not in taken]
