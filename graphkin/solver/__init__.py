@@ -78,8 +78,8 @@ def solve(
     if sweep is not None:
         return range_from(structure, modes, goal).sweep(sweep)
     drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in modes.items()}
-    found = motion_of(structure, drive, here, modes, np.ones(1, dtype=bool), extended=extended)
-    return replace(found, passed=passed)
+    motion = motion_of(structure, drive, here, modes, np.ones(1, dtype=bool), extended=extended)
+    return replace(motion, passed=passed)
 
 
 def solved_here(
@@ -188,7 +188,7 @@ def _several_drivers(structure: Structure, drive: Drive, extended: bool) -> Moti
     from graphkin.solver.path.continuity import follow_path
 
     modes = start = choose_modes(structure)
-    here, found = own_values(structure.scene), []
+    here, history = own_values(structure.scene), []
     turns: list[dict[str, float]] = []
     good, why = np.ones(len(drive), dtype=bool), list[Wording]([""] * len(drive))
     for k, goal in enumerate(drive.value):
@@ -200,9 +200,9 @@ def _several_drivers(structure: Structure, drive: Drive, extended: bool) -> Moti
                 turns.append({n: before.get(n, 0.0) + float(by[0]) for n, by in path.turned(np.ones(1)).items()})
             else:
                 good[k], why[k] = False, path.why_ended()
-        found.append(modes)
+        history.append(modes)
         turns[k:] = [turns[-1] if turns else {}]
-    stacked = {i: np.stack([f[i] for f in found]) for i in modes}
+    stacked = {i: np.stack([f[i] for f in history]) for i in modes}
     motion = motion_of(structure, drive, stacked, start, good, extended=extended)
     reasons = tuple(a or b for a, b in zip(motion.reasons, why, strict=True))
     return replace(motion, reasons=reasons, turned={n: np.array([s.get(n, 0.0) for s in turns]) for n in motion.poses})

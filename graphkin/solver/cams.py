@@ -85,11 +85,11 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
     u = np.exp(1j * sense * np.asarray(degree, dtype=float))
     s0, s1, s2 = np.asarray(lift.lift), sense * np.asarray(lift.slope), np.asarray(lift.second)
     course = cam.course(lift, np.exp)
-    point, way, tangent, tangent_rate = course.point, course.way, course.tangent, course.tangent_rate
+    point, travel, tangent, tangent_rate = course.point, course.way, course.tangent, course.tangent_rate
     with np.errstate(all="ignore"):
         if cam.flat:
             assert isinstance(motion, SlidingFollower)
-            normal = way
+            normal = travel
             contact = motion.along * (cam.base + s0 - 1j * s1)
             radius = cam.base + s0 + s2
             leaning = leaning_rate = 0.0 * s1
@@ -99,11 +99,11 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
             normal = 1j * tangent / size
             contact = point - cam.roller * normal
             radius = -(size**3) / turn - cam.roller
-            leaning = np.angle(normal * np.conj(way))
+            leaning = np.angle(normal * np.conj(travel))
             leaning_rate = turn / size**2 + 1.0 - course.turning
             along = 3.0 * size * dot(tangent, tangent_rate)
             radius_rate = (size**3 * cross(tangent, course.jerk) - along * turn) / turn**2
-    columns = (s0, lift.slope, u, point, normal, contact, way, radius, leaning, leaning_rate, radius_rate)
+    columns = (s0, lift.slope, u, point, normal, contact, travel, radius, leaning, leaning_rate, radius_rate)
     return CamAt(*map(np.asarray, columns))
 
 

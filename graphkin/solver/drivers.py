@@ -196,11 +196,11 @@ def law_doubts(drivers: Sequence[Driver]) -> Array:
     """How far rounding may move value, rate and second rate of drivers that move by laws, and of what follows them:
     shape (3, drivers) (rad or m, by s and by s2); 0 for others."""
     doubts = np.zeros((len(drivers), 3))
-    for driver, own in zip(drivers, doubts, strict=True):
+    for driver, doubt in zip(drivers, doubts, strict=True):
         if driver.law is not None:
-            own[:] = driver.law.doubts
+            doubt[:] = driver.law.doubts
         elif driver.ratios:
-            own[:] = np.abs(driver.ratios) @ doubts[: len(driver.ratios)]
+            doubt[:] = np.abs(driver.ratios) @ doubts[: len(driver.ratios)]
     return doubts.T
 
 

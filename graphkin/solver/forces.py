@@ -173,24 +173,24 @@ class Forces:
         """The unknowns, shape (columns, n), NaN where they are not found, and whether they are found; where loads begin
         or end exactly at some position then also with these."""
         matrix, inverse, regular = self._equations()
-        loads = [[one.value for one in self.acting]]
-        if any(one.beside is not None for one in self.acting):
-            loads.append([one.value if one.beside is None else one.beside for one in self.acting])
+        loads = [[load.value for load in self.acting]]
+        if any(load.beside is not None for load in self.acting):
+            loads.append([load.value if load.beside is None else load.beside for load in self.acting])
         answers: list[tuple[Array, Array]] = []
         for values in loads:
             right = self._right(values)
             good = regular & np.isfinite(right).all(axis=0)
             column = np.where(good, right, 0.0).T[..., None]
-            found = inverse @ column
+            solution = inverse @ column
             # a second pass takes back the rounding of the first
-            found += inverse @ (column - np.where(good[:, None, None], matrix, 0.0) @ found)
-            answers.append((np.where(good, found[..., 0].T, np.nan), good))
+            solution += inverse @ (column - np.where(good[:, None, None], matrix, 0.0) @ solution)
+            answers.append((np.where(good, solution[..., 0].T, np.nan), good))
         return answers
 
-    def _by_symbol(self, found: Array) -> dict[Symbol, Array]:
+    def _by_symbol(self, sizes: Array) -> dict[Symbol, Array]:
         """The columns of the answer by their symbols, both components of a force together."""
         made: dict[Symbol, Array] = {}
-        for unknown, size in zip(self.unknowns, found, strict=True):
+        for unknown, size in zip(self.unknowns, sizes, strict=True):
             symbol, value = unknown.symbol, size * unknown.value
             made[symbol] = made[symbol] + value if unknown.at is not None and symbol in made else value
         return made
@@ -220,11 +220,11 @@ class Forces:
         """The values with the loads that begin or end exactly at a position; NaN elsewhere, and where they do not
         change."""
         here, ok = self.values, self.ok
-        jumping = [one for one in self.acting if one.beside is not None]
+        jumping = [load for load in self.acting if load.beside is not None]
         if not jumping:
             return {}
-        changed = ok & np.any([one.beside != one.value for one in jumping], axis=0)
-        made = {one.symbol: one.beside for one in jumping if one.beside is not None}
+        changed = ok & np.any([load.beside != load.value for load in jumping], axis=0)
+        made = {load.symbol: load.beside for load in jumping if load.beside is not None}
         if changed.any():
             made |= self._by_symbol(np.where(changed, self._found[1][0], np.nan))
         least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num([*here.values(), *made.values()])), axis=0)
@@ -271,12 +271,12 @@ class Forces:
             for link in spring.links:
                 if link in self._row:
                     right[self._row[link] : self._row[link] + 3] += np.nan_to_num(error)
-        values = (self.values[one.symbol] / (size if one.at is None else 1.0) for one in self.unknowns)
-        found = np.nan_to_num([np.abs(value) for value in values])
+        values = (self.values[unknown.symbol] / (size if unknown.at is None else 1.0) for unknown in self.unknowns)
+        sizes = np.nan_to_num([np.abs(value) for value in values])
         matrix = np.nan_to_num(matrix)
         error = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
-        right += (error @ found.T[..., None])[..., 0].T
-        spread = (np.abs(inverse) @ np.nan_to_num(right).T[..., None])[..., 0].T + 16 * EPS * found
+        right += (error @ sizes.T[..., None])[..., 0].T
+        spread = (np.abs(inverse) @ np.nan_to_num(right).T[..., None])[..., 0].T + 16 * EPS * sizes
         most = np.where(self.ok, spread.max(axis=0), np.nan)
         return most, most * size
 
@@ -290,16 +290,16 @@ class Forces:
         )
         largest = force, np.maximum(moment, force * self.motion.scene.size)
         pairs = zip(self.bound, largest, strict=True)
-        one, two = (np.where(bound <= SLIGHT * whole, bound, 0.0) for bound, whole in pairs)
-        return one, two
+        forces, moments = (np.where(bound <= SLIGHT * whole, bound, 0.0) for bound, whole in pairs)
+        return forces, moments
 
     @cached_property
     def power(self) -> tuple[Array, Array]:
         """The sum of the powers of all outer actions and of the balances, which is 0 within rounding, and the greatest
         of them (W), shape (n,) each."""
         both = (*actions(self.motion), *self.balancing)
-        own = [one.power(self.motion) for one in both]
-        return np.sum(own, axis=0), np.max(np.abs(own), axis=0)
+        powers = [action.power(self.motion) for action in both]
+        return np.sum(powers, axis=0), np.max(np.abs(powers), axis=0)
 
     @property
     def balancing(self) -> Iterator[Action]:
@@ -311,10 +311,10 @@ class Forces:
         exactly at a position; None for an unknown one."""
         plain = replace(symbol, at="", plus=False)
         for known, sign in ((plain, 1.0), (plain.opposite, -1.0)):
-            own = self.values.get(known)
-            if own is not None:
+            values = self.values.get(known)
+            if values is not None:
                 jumped = self.beside.get(known) if symbol.plus else None
-                return sign * (own if jumped is None else np.where(np.isnan(jumped), own, jumped))
+                return sign * (values if jumped is None else np.where(np.isnan(jumped), values, jumped))
         return None
 
 
@@ -384,25 +384,25 @@ def actions(motion: Motion) -> Iterator[Action]:
 
 def _spring(motion: Motion, spring: SpringOn) -> Iterator[Action]:
     """The forces of a spring on both its links, along the line of its points."""
-    one, two = spring_ends(motion, spring)
-    way = two - one
-    length = np.abs(way)
-    along = np.divide(way, length, out=np.full(len(motion), complex(np.nan, np.nan)), where=_has_line(motion, length))
+    first, second = spring_ends(motion, spring)
+    line = second - first
+    length = np.abs(line)
+    along = np.divide(line, length, out=np.full(len(motion), complex(np.nan, np.nan)), where=_has_line(motion, length))
     force = np.asarray(spring.pull(length) * along)
-    yield Action(spring.symbol, spring.links[0], one, force)
-    yield Action(spring.symbol, spring.links[1], two, -force)
+    yield Action(spring.symbol, spring.links[0], first, force)
+    yield Action(spring.symbol, spring.links[1], second, -force)
 
 
 def spring_ends(motion: Motion, spring: SpringOn) -> tuple[Array, Array]:
     """The places of a spring's two points, complex, shape (n,) each (m)."""
-    one, two = (np.broadcast_to(motion.poses[n].z + motion.poses[n].u * at, len(motion)) for n, at in spring.ends)
-    return np.asarray(one), np.asarray(two)
+    first, second = (np.broadcast_to(motion.poses[n].z + motion.poses[n].u * at, len(motion)) for n, at in spring.ends)
+    return np.asarray(first), np.asarray(second)
 
 
 def without_line(motion: Motion) -> dict[SpringOn, Array]:
     """For each spring the positions, bool, shape (n,), at which its points coincide, so that its force has no line."""
     springs = motion.scene.loading.springs
-    lengths = {one: np.abs(np.subtract(*spring_ends(motion, one))) for one in springs}
+    lengths = {spring: np.abs(np.subtract(*spring_ends(motion, spring))) for spring in springs}
     return {spring: motion.ok & ~_has_line(motion, length) for spring, length in lengths.items()}
 
 
@@ -474,10 +474,10 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     problem = no_force(motion.scene, str(symbol), symbol)
     if problem is not None:
         raise CallError(problem)
-    found = forces_of(motion).value(symbol)
-    if found is None:
+    values = forces_of(motion).value(symbol)
+    if values is None:
         raise CallError.of(str(symbol), "is read off the drawing alone", "ask check for it")
-    return found
+    return values
 
 
 def settled_value(motion: Motion, symbol: Symbol) -> Array:

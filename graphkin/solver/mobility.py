@@ -51,10 +51,10 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
 
             structure = meeting_followers(structure)
     except Unsolvable as stop:
-        found = _diagnosis(scene) if stop.status == "mobility" else None
-        if found is None:
+        diagnosis = _diagnosis(scene) if stop.status == "mobility" else None
+        if diagnosis is None:
             raise
-        raise Unsolvable("mobility", *stop.problems, found) from None
+        raise Unsolvable("mobility", *stop.problems, diagnosis) from None
     if any(d.distance is not None and not d.exact for d in scene.drivers):
         structure = from_dead_point(structure)
     if structure.slides:
@@ -123,17 +123,17 @@ def with_sensible_guides(structure: Structure) -> Structure:
     Only dyads up to the first larger group are examined.
     """
     free = _free_guides(structure)
-    found: list[tuple[tuple[int, ...], State]] = []
+    choices: list[tuple[tuple[int, ...], State]] = []
     if not free or _reached(structure, ()) is not None:
         return structure
     for count in range(1, len(free) + 1):
         tried = ((some, _reached(structure, some)) for some in combinations(free, count))
-        found = [(some, state) for some, state in tried if state is not None]
-        if found:
+        choices = [(some, state) for some, state in tried if state is not None]
+        if choices:
             break
-    if len(found) != 1:
+    if len(choices) != 1:
         return structure
-    (some, state), scene = found[0], structure.scene
+    (some, state), scene = choices[0], structure.scene
     sketch = dict(scene.sketch)
     for k in some:
         sketch |= new_places(structure, k, structure.elements[k].members, state.poses)
@@ -151,16 +151,16 @@ def _elements(structure: Structure) -> Iterator[tuple[int, Dyad]]:
 
 def _free_guides(structure: Structure) -> list[int]:
     """Dyads of a slider on a bar without data for their sense, on which links hang that may not reach."""
-    scene, told = structure.scene, {*structure.scene.sketch, *structure.scene.drawn}
+    scene, given = structure.scene, {*structure.scene.sketch, *structure.scene.drawn}
     dyads = [*_elements(structure)]
-    found = []
+    free = []
     for i, dyad in dyads:
-        own = {p for name in dyad.links for p in structure.links[name].points}
+        points = {p for name in dyad.links for p in structure.links[name].points}
         known = {p for j in range(i) for n in structure.elements[j].members for p in structure.links[n].points}
-        fresh = own - known - set(scene.frame.points)
-        if dyad.kind == "RPR" and not dyad.inner.turns and fresh and not fresh & told and dyads[-1][0] > i:
-            found.append(i)
-    return found[:MOST]
+        fresh = points - known - set(scene.frame.points)
+        if dyad.kind == "RPR" and not dyad.inner.turns and fresh and not fresh & given and dyads[-1][0] > i:
+            free.append(i)
+    return free[:MOST]
 
 
 def _reached(structure: Structure, turned: Collection[int]) -> State | None:
@@ -191,9 +191,9 @@ def at_given_speed(structure: Structure) -> Structure:
     driver = scene.drivers[0]
     assert driver.given_speed is not None
     name, speed = driver.given_speed
-    own = own_values(scene)[None]
+    values = own_values(scene)[None]
     modes = {i: f[None] for i, f in choose_modes(structure).items()}
-    state = positions(structure, Drive.at_unit_rates(own), modes, extended=False)
+    state = positions(structure, Drive.at_unit_rates(values), modes, extended=False)
     posed = Posed(structure, state.poses, structure.slides)
     once = abs(complex(np.ravel(posed.point(PointRef(name)).v)[0]))
     if not np.isfinite(once) or once <= STANDS * scene.size or once >= scene.size / SINGULAR:
@@ -218,22 +218,22 @@ def from_dead_point(structure: Structure) -> Structure:
         distance = meant_value(driver, driver.distance)
     side = 1 if distance > 0 else -1
     known: list[tuple[DeadPoint, int]] = []
-    found: list[tuple[DeadPoint, Structure]] = []
+    starts: list[tuple[DeadPoint, Structure]] = []
     for point in dead_points(structure, driver.near or 0.0):
-        for way in point.sides:
+        for sense in point.sides:
             with working():
-                value = point.value + way * abs(distance)
+                value = point.value + sense * abs(distance)
             here = analyse(replace(scene, drivers=(replace(driver, value=float(value), exact=str(value)),)))
             try:
                 modes = choose_modes(here)
             except GraphkinError:
                 continue
             if all(float(modes[j]) == s for j, s in point.signs.items()):
-                known.append((point, way))
-                found += [(point, here)] if way == side else []
-    what = Phrase("driver of key", key=driver.key)
+                known.append((point, sense))
+                starts += [(point, here)] if sense == side else []
+    where = Phrase("driver of key", key=driver.key)
     others = _listed(scene, known)
-    if not found:
+    if not starts:
         from graphkin.solver.path.driver_path import MOST_GROUPS, not_tried
 
         key = "no dead point at which the motion begins" if side > 0 else "no dead point at which the motion ends"
@@ -241,34 +241,33 @@ def from_dead_point(structure: Structure) -> Structure:
         if missing := not_tried(structure):
             behind = links_named([name for links in missing for name in links])
             wanted.append(Phrase("links were not looked at", links=behind, most=MOST_GROUPS))
-        raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
-    if driver.near is None and len(found) > 1:
-        names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])
-        raise Unsolvable("dead point", Problem(what, "there are dead points at", "write near to tell which one",
+        raise Unsolvable("dead point", Problem(where, Phrase(key), clauses(wanted)))
+    if driver.near is None and len(starts) > 1:
+        names = listed([driver_text(scene, driver, float(p.value)) for p, _ in starts])
+        raise Unsolvable("dead point", Problem(where, "there are dead points at", "write near to tell which one",
                                                names=names))
 
     def away(point: DeadPoint) -> float:
         return abs(driver.wrapped(float(point.value) - (driver.near or 0.0)))
 
-    taken = min(found, key=lambda pair: away(pair[0]))
-    nearest, way = min(known, key=lambda pair: (away(pair[0]), pair[1] != side))
+    taken = min(starts, key=lambda pair: away(pair[0]))
+    nearest, sense = min(known, key=lambda pair: (away(pair[0]), pair[1] != side))
     if driver.near is not None and away(nearest) < away(taken[0]) - SAME:
         wish, at = (driver_text(scene, driver, x) for x in (driver.near, float(nearest.value)))
-        key = "nearest dead point where the motion begins" if way > 0 else "nearest dead point where the motion ends"
-        raise Unsolvable("dead point", Problem(
-            what, Phrase(key, wish=wish, at=at), clauses([Phrase("change the sign of the distance or near"), *others])))
+        key = "nearest dead point where the motion begins" if sense > 0 else "nearest dead point where the motion ends"
+        raise Unsolvable("dead point", Problem(where, Phrase(key, wish=wish, at=at), clauses([
+            Phrase("change the sign of the distance or near"), *others])))
     return taken[1]
 
 
 def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> list[Phrase]:
     """The dead points of a scene in words, with the motion on their sides."""
     ends: dict[Wording, list[int]] = {}
-    for point, way in known:
-        ends.setdefault(driver_text(scene, scene.drivers[0], float(point.value)), []).append(way)
+    for point, sense in known:
+        ends.setdefault(driver_text(scene, scene.drivers[0], float(point.value)), []).append(sense)
     said = [
-        Phrase(
-            "the motion passes" if len(set(ways)) > 1 else "it begins there" if ways[0] > 0 else "it ends there", at=at
-        )
-        for at, ways in ends.items()
+        Phrase("the motion passes" if len({*senses}) > 1 else "it begins there" if senses[0] > 0 else "it ends there",
+               at=at)
+        for at, senses in ends.items()
     ]
     return [Phrase("dead points", points=listed(said))] if said else []

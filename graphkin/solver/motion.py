@@ -199,8 +199,8 @@ class Motion:
         rate, second = np.zeros(len(self)), np.zeros(len(self))
         for driver in self.scene.drivers:
             if driver.turns:
-                one, two = self.poses[driver.link], self.poses[driver.relative_to]
-                rate, second = rate + np.abs(one.omega - two.omega), second + np.abs(one.alpha - two.alpha)
+                pose, base = self.poses[driver.link], self.poses[driver.relative_to]
+                rate, second = rate + np.abs(pose.omega - base.omega), second + np.abs(pose.alpha - base.alpha)
             else:
                 _, velocity, acceleration, _ = self.slide(driver.key)
                 rate, second = rate + np.abs(velocity) / size, second + np.abs(acceleration) / size
@@ -278,15 +278,15 @@ def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[Point
     """Every point of a moving link, on every link that has it, every coincident point under a sliding pin, and the
     points of both bodies at a contact: each as in a symbol, where a pin is the same on all its links, and its link; in
     the order of the file."""
-    found = [(p, link.name) for link in scene.links for p in link.points]
+    points = [(p, link.name) for link in scene.links for p in link.points]
     moving = {link.name for link in scene.links}
-    found += [(point, link) for point, pair in scene.contact_at.items() for link in pair.bodies if link in moving]
+    points += [(point, link) for point, pair in scene.contact_at.items() for link in pair.bodies if link in moving]
     for pair in own_slides(scene, slides):
-        if pair.pin and pair.b in moving and (pair.pin, pair.b) not in found:
-            found.append((pair.pin, pair.b))
+        if pair.pin and pair.b in moving and (pair.pin, pair.b) not in points:
+            points.append((pair.pin, pair.b))
     place = {link.name: i for i, link in enumerate(scene.links)}
     return tuple((PointRef(point, "" if point in scene.by_name[link].points else link), link)
-                 for point, link in sorted(found, key=lambda known: place[known[1]]))
+                 for point, link in sorted(points, key=lambda known: place[known[1]]))
 
 
 def own_slides(scene: Mechanism, slides: Sequence[Pair]) -> tuple[Pair, ...]:

@@ -299,13 +299,13 @@ class PreparedMechanism:
                 signs = self.signs_at(np.array([value]))
                 inputs = [given[k] if k < 3 else float(signs[n][0]) for k, n in zip(order, names, strict=True)]
             try:
-                found = function(params, inputs)
+                numbers = function(params, inputs)
             except (ZeroDivisionError, OverflowError):
                 return None
-            for sine in found[count:]:
+            for sine in numbers[count:]:
                 if -SINGULAR < sine < SINGULAR:
                     return None
-            return found[:count]
+            return numbers[:count]
 
         return one
 
@@ -391,8 +391,8 @@ class PreparedMechanism:
         all are known there."""
         motion = self.range.motion(self.range.offsets(values))
         forces = forces_of(motion) if any(symbol.is_load for symbol in self.solved) else None
-        found = {symbol: settled_value(motion, symbol) * self._factor(symbol) for symbol in self.solved}
-        for row, part in zip(rows, by_columns(found).values(), strict=True):
+        columns = {symbol: settled_value(motion, symbol) * self._factor(symbol) for symbol in self.solved}
+        for row, part in zip(rows, by_columns(columns).values(), strict=True):
             row[:] = part
         for row, symbol in zip(bounds, self.solved if self.bounded else (), strict=True):
             bound = forces.bound[symbol.measure.length] if forces and symbol.is_load else math.inf
@@ -454,12 +454,12 @@ class PreparedMechanism:
             given |= state.given
             for _, dead in singular(self.structure, state, len(there)):
                 ok &= ~dead
-        found = np.empty((len(self.examined.asked), len(there)))
+        numbers = np.empty((len(self.examined.asked), len(there)))
         inputs = [given[name] for name in self.examined.inputs]
-        self.examined.arrays(self.invariants(self.examined), inputs, list(found))
-        ok &= (np.abs(found[count:]) >= SINGULAR).all(axis=0)
-        found[:, ~ok] = np.nan
-        columns[:, reached], reached[reached] = found[:count], ok
+        self.examined.arrays(self.invariants(self.examined), inputs, list(numbers))
+        ok &= (np.abs(numbers[count:]) >= SINGULAR).all(axis=0)
+        numbers[:, ~ok] = np.nan
+        columns[:, reached], reached[reached] = numbers[:count], ok
         return columns, reached
 
     def _bounds(self, value: Array, ok: Array, out: Array) -> None:

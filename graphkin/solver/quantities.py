@@ -222,8 +222,8 @@ def _place(posed: AnyPosed, symbol: Symbol, name: str) -> Any:
         return np.where(scene.size * np.abs(omega) <= PARALLEL * np.abs(q), np.nan, q / omega)
 
 
-def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
-    """The relative rotation of one link against another, as homogeneous coordinates of their instant centre, where both
+def pole(first: Pose, second: Pose) -> tuple[Array, Array]:
+    """The rotation of the first link against the second, as homogeneous coordinates of their instant centre, where both
     have the same velocity.
 
     Returns
@@ -233,8 +233,8 @@ def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
         the centre is q / omega; at infinity in the direction of q where omega is 0; none where both are 0.  With the
         velocity v0 of the point at the world's origin, 0 = v0 + i omega z gives q = i v0.
     """
-    v0 = (one.v - 1j * one.omega * one.z) - (two.v - 1j * two.omega * two.z)
-    return np.asarray(1j * v0), np.asarray(one.omega - two.omega)
+    v0 = (first.v - 1j * first.omega * first.z) - (second.v - 1j * second.omega * second.z)
+    return np.asarray(1j * v0), np.asarray(first.omega - second.omega)
 
 
 # parts of accelerations
@@ -298,8 +298,7 @@ def _is_on(posed: AnyPosed, ref: PointRef, link: str) -> bool:
         posed.point(ref)
     if ref.link == link:
         return True
-    own = not ref.link or ref.link in holders
-    return own and (link in holders or ref.point in posed.link(link).points)
+    return (not ref.link or ref.link in holders) and (link in holders or ref.point in posed.link(link).points)
 
 
 def _of_turning(posed: AnyPosed, symbol: Symbol, of: PointRef) -> Any:
@@ -395,16 +394,16 @@ def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBoun
         if not posed.is_under(ref):
             return (known[ref.link] if ref.link else holder).of_point[order]
         # the place lies where the pin is, which may be off
-        own, pose = known[ref.link], posed.pose(ref.link)
+        base, pose = known[ref.link], posed.pose(ref.link)
         arm = np.abs(posed.point(PointRef(ref.point)).z - pose.z)
-        spin, turning = np.abs(pose.omega) + own.omega, np.abs(pose.alpha) + own.alpha
-        error = holder.position + own.position + 8 * UNIT * arm
-        found: Array = (
+        spin, turning = np.abs(pose.omega) + base.omega, np.abs(pose.alpha) + base.alpha
+        error = holder.position + base.position + 8 * UNIT * arm
+        bound: Array = (
             holder.position,
-            own.velocity + arm * own.omega + spin * error,
-            own.acceleration + arm * (own.alpha + 2 * spin * own.omega) + (turning + spin**2) * error,
+            base.velocity + arm * base.omega + spin * error,
+            base.acceleration + arm * (base.alpha + 2 * spin * base.omega) + (turning + spin**2) * error,
         )[order]
-        return found
+        return bound
 
     if symbol.kind == "s":
         pair = sliding_pair(posed.slides, symbol)

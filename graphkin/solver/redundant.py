@@ -59,25 +59,25 @@ def redundant_poses(
     waiting = [link for link in scene.links if link.redundant]
     while waiting:
         for link in waiting:
-            found = fit(scene, link, poses)
-            if found is not None:
+            fitted = fit(scene, link, poses)
+            if fitted is not None:
                 break
         else:
             raise Unsolvable("mobility", Problem(links_named([link.name for link in waiting]),
                                                  "redundant but nothing holds both ends of them"))
         waiting.remove(link)
-        bad = ok & ~found.fits_within(bound)
+        bad = ok & ~fitted.fits_within(bound)
         if bad.any():
             k = int(np.argmax(bad))
-            residual = float(found.position[k]) * scene.size / scene.units.metres
+            residual = float(fitted.position[k]) * scene.size / scene.units.metres
             how = (
                 Phrase("it misses its joints by", missed=f'{residual:.4g}', length=scene.units.length)
-                if found.position[k] >= FITS
+                if fitted.position[k] >= FITS
                 else Phrase("it fits here but would stop the motion")
             )
             raise Unsolvable("mobility", Problem(f"links.{link.name}.redundant", how,
                                                  "a redundant link must repeat what the others"))
-        poses[link.name] = placed[link.name] = found.pose
+        poses[link.name] = placed[link.name] = fitted.pose
     return placed
 
 
@@ -111,13 +111,13 @@ def fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | 
 def _between_hinges(
     scene: Mechanism, link: PlacedLink, shared: Mapping[str, str], poses: Mapping[str, Pose]
 ) -> Pose | None:
-    p, q = max(combinations(shared, 2), key=lambda two: abs(link.points[two[0]] - link.points[two[1]]))
+    p, q = max(combinations(shared, 2), key=lambda ends: abs(link.points[ends[0]] - link.points[ends[1]]))
     arm = link.points[q] - link.points[p]
     if arm == 0:
         return None
-    one, two = (poses[shared[name]].fixed(scene.by_name[shared[name]].points[name]) for name in (p, q))
-    line = aimed(one, two)
-    return one.pinned(rest(link.points[p]), line.u * (abs(arm) / arm), line.omega, line.alpha)
+    first, second = (poses[shared[name]].fixed(scene.by_name[shared[name]].points[name]) for name in (p, q))
+    line = aimed(first, second)
+    return first.pinned(rest(link.points[p]), line.u * (abs(arm) / arm), line.omega, line.alpha)
 
 
 def _on_guide(

@@ -95,14 +95,14 @@ def _place_words(structure: Structure, group: LargerGroup, place: Array) -> Phra
         first, second = other(pair.a, pair.point), other(pair.b, pair.point)
         if first is None or second is None:
             continue
-        inner, one, two = world(pair.a, pair.point), world(pair.a, first), world(pair.b, second)
+        inner, start, end = world(pair.a, pair.point), world(pair.a, first), world(pair.b, second)
         z = inner / structure.scene.units.metres
         where = where or Phrase("assembled at", point=pair.point, x=f"{z.real:.5g}", y=f"{z.imag:.5g}")
-        side = ((two - one).conjugate() * (inner - one)).imag
+        side = ((end - start).conjugate() * (inner - start)).imag
         said.append(_beside(side > 0, pair.point, first, second))
     said += [where] if where else []
     said = said or [Phrase("assembled as in the scene")]
-    return reduce(lambda one, other: Phrase("listed", first=one, second=other), said)
+    return reduce(lambda left, right: Phrase("listed", first=left, second=right), said)
 
 
 def _beside(left: bool, inner: str, first: str, second: str) -> Phrase:

@@ -32,9 +32,9 @@ def measured(motion: Motion, pair: HigherPair) -> dict[str, Measure]:
         return {"pitch_point": at / metres, "radii": [None if r is None else r / metres for r in radii]}
     at, normal = touch_of(motion, pair)
     if isinstance(pair, PlacedContact):
-        one, two = (motion.velocity(pair.name, link) for link in pair.bodies)
+        first, second = (motion.velocity(pair.name, link) for link in pair.bodies)
         return {"kind": "rolling" if pair.rolling else "sliding", "position": at / metres, "normal": normal,
-                "slip": (one - two) / fast, "pressure": contact_pressure(motion, pair)}
+                "slip": (first - second) / fast, "pressure": contact_pressure(motion, pair)}
     turn = motion.poses[pair.link]
     there = cam_at(pair, cam_angle(pair, turn.u))
     return {"lift": there.lift / (1.0 if pair.turns else metres), "contact": at / metres, "normal": normal,
@@ -75,9 +75,9 @@ def contact_pressure(motion: Motion, contact: PlacedContact) -> dict[str, Array]
             for link, velocity in velocities.items()}
 
 
-def angle_between(normal: Array, way: Array) -> Array:
+def angle_between(normal: Array, direction: Array) -> Array:
     """The angle between the lines of a normal and of a direction (rad), 0 .. pi/2; 0 where it is rounding alone."""
-    across = np.conj(normal) * way
+    across = np.conj(normal) * direction
     angle = np.arctan2(np.abs(across.imag), np.abs(across.real))
     return np.where(angle > ROUNDED, angle, 0.0)
 
@@ -93,7 +93,7 @@ def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, f
         return np.asarray(foot), (float(np.abs(foot - axis).flat[0]), None)
     z1, z2 = gear.teeth
     assert z2 is not None
-    way = motion.position(gear.axes[1], gear.carrier) - axis
+    span = motion.position(gear.axes[1], gear.carrier) - axis
     held = motion.link(gear.carrier).points
     far = abs(held[gear.axes[1]] - held[gear.axes[0]]) / abs(z1 + z2)
-    return np.asarray(axis + way * (z1 / (z1 + z2))), (far * z1, far * z2)
+    return np.asarray(axis + span * (z1 / (z1 + z2))), (far * z1, far * z2)

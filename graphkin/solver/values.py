@@ -84,8 +84,8 @@ def of_cycle(motion: Motion, symbol: Symbol) -> Array:
 def _of_turn(motion: Motion, symbol: Symbol) -> float:
     """A quantity of the whole turn of the first driver, the others at the single position of a motion."""
     values = motion.scene.by_driver(motion.values[0])
-    found = extremes(range_of(structure_of(motion.structure), values), symbol)
-    return {"K": found.ways.ratio, "theta_lag": found.ways.lag}.get(symbol.kind, found.stroke)
+    turn = extremes(range_of(structure_of(motion.structure), values), symbol)
+    return {"K": turn.ways.ratio, "theta_lag": turn.ways.lag}.get(symbol.kind, turn.stroke)
 
 
 @kept_with
@@ -210,7 +210,7 @@ def _arm(moving: Motion, forces: Forces, of: Symbol) -> float:
         if balance.symbol == of:
             return float(balance.power(moving)[0])
     force = forces.values[of] if forces.values[of][0] else forces.beside.get(of, forces.values[of])
-    acting = next(one for one in actions(moving) if one.symbol == of)
+    acting = next(action for action in actions(moving) if action.symbol == of)
     return float(replace(acting, value=force).power(moving)[0] / abs(force[0])) if force[0] else 0.0
 
 
@@ -252,7 +252,7 @@ def needed_moment(reach: DriverRange, offset: Array) -> Array:
 
     motion, moved = reach.motion(offset), reach.motion(offset, unit=True, extended=False)
     forces = forces_of(motion)
-    return np.asarray(np.sum([one.power(moved) for one in forces.balancing], axis=0))
+    return np.asarray(np.sum([balance.power(moved) for balance in forces.balancing], axis=0))
 
 
 NO_WORK = 1e-12
@@ -352,16 +352,16 @@ def load_edges(reach: DriverRange) -> Array:
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
     low, high = reach.ends
-    found: list[float] = []
+    edges: list[float] = []
     for load in reach.scene.loading.loads:
         if load.against:
-            found += _crossings(reach, _speed(reach, load.against))
+            edges += _crossings(reach, _speed(reach, load.against))
         if load.phase is not None:
             try:
-                found += _begins_and_ends(reach, load.phase)
+                edges += _begins_and_ends(reach, load.phase)
             except Unsolvable as stop:
                 raise load.without_stroke(stop) from None
-    kept = sorted(offset for offset in found if low - 1e-9 <= offset <= high + 1e-9)
+    kept = sorted(offset for offset in edges if low - 1e-9 <= offset <= high + 1e-9)
     least = 1e-9 * (high - low)
     return np.array([x for i, x in enumerate(kept) if i == 0 or x - kept[i - 1] > least])
 
@@ -477,10 +477,10 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
     """Every number of some positions, in the scene's units."""
     scene = motion.scene
     metres, fast = scene.units.metres, scene.units.rates.metres
-    found: Columns = {"links": {}, "points": {}, "slides": {}}
+    columns: Columns = {"links": {}, "points": {}, "slides": {}}
 
     def put(part: str, of: str, **values: Measure) -> None:
-        found.setdefault(part, {})[of] = {what: _column(value) for what, value in values.items()}
+        columns.setdefault(part, {})[of] = {name: _column(value) for name, value in values.items()}
 
     for name, angle in angles.items():
         put("links", name, angle=angle, omega=motion.omega(name), alpha=motion.alpha(name))
@@ -495,7 +495,7 @@ def _of_motion(motion: Motion, angles: Mapping[str, Array]) -> Columns:
         from graphkin.solver.touching import measured
 
         put(touching.table, touching.name, **measured(motion, touching))
-    return found
+    return columns
 
 
 def _column(measure: Measure) -> Any:
@@ -507,9 +507,9 @@ def _column(measure: Measure) -> Any:
 
 def _of_forces(scene: Mechanism, forces: Forces, some: slice) -> Columns:
     """Forces and moments; a key with + is the value with the loads that begin or end exactly at a position."""
-    found: Columns = {"forces": {}, "moments": {}}
+    columns: Columns = {"forces": {}, "moments": {}}
     for symbol, values in forces.values.items():
-        part = found["forces" if symbol.is_vector else "moments"]
+        part = columns["forces" if symbol.is_vector else "moments"]
         shown = values[some] / scene.units.newtons
         part[str(symbol)] = _plain(shown.astype(complex) if symbol.is_vector else shown.real)
         if symbol in forces.beside:
@@ -517,7 +517,7 @@ def _of_forces(scene: Mechanism, forces: Forces, some: slice) -> Columns:
             there = ~np.isnan(shown)
             part[f"{symbol}+"] = _plain(shown.astype(complex) if symbol.is_vector else shown.real, there)
     bounds = (bound[some] / scene.units.newtons for bound in forces.bound)
-    return {**found, "force_bound": {part: bound.tolist() for part, bound in zip(found, bounds, strict=True)}}
+    return {**columns, "force_bound": {part: bound.tolist() for part, bound in zip(columns, bounds, strict=True)}}
 
 
 def _flywheel(motion: Motion) -> dict[str, Json]:
@@ -526,26 +526,26 @@ def _flywheel(motion: Motion) -> dict[str, Json]:
     if motion.scene.loading.flywheel is None or not motion.ok.any():
         return {}
     try:
-        found = flywheel_of(range_of(structure_of(motion.structure)))
+        study = flywheel_of(range_of(structure_of(motion.structure)))
     except Unsolvable:
         return {}
-    return {"excess_W": found.excess / units.newtons, "J_F": found.inertia / units.of("inertia").si}
+    return {"excess_W": study.excess / units.newtons, "J_F": study.inertia / units.of("inertia").si}
 
 
 def _plain(values: Array, present: Array | None = None) -> list[Any]:
     """Numbers, or pairs of numbers for complex ones, without a minus before zero; only where they are ``present``."""
     parts = np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
-    found: list[Any] = (parts + 0.0).tolist()
-    return found if present is None else [x if there else ABSENT for x, there in zip(found, present, strict=True)]
+    numbers: list[Any] = (parts + 0.0).tolist()
+    return numbers if present is None else [x if there else ABSENT for x, there in zip(numbers, present, strict=True)]
 
 
 def _of_bounds(motion: Motion, some: slice) -> Columns:
     """Bounds of the values' rounding errors; None, with the reason, where they are unknown."""
     metres, fast = motion.scene.units.metres, motion.scene.units.rates.metres
     names = "position", "velocity", "acceleration", "angle", "omega", "alpha"
-    found: Columns = {}
+    bounds: Columns = {}
     for name, bound, per in zip(names, motion.bound, (metres, fast, fast, 1.0, 1.0, 1.0), strict=True):
-        found[name] = [x if math.isfinite(x) else None for x in (bound[some] / per).tolist()]
+        bounds[name] = [x if math.isfinite(x) else None for x in (bound[some] / per).tolist()]
     why = "the worst case of rounding, multiplied along so many groups, says nothing"
-    found["why"] = [why if None in row else ABSENT for row in zip(*found.values(), strict=True)]
-    return found
+    bounds["why"] = [why if None in row else ABSENT for row in zip(*bounds.values(), strict=True)]
+    return bounds

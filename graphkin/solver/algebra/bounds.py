@@ -75,17 +75,17 @@ def error_bounds(
         error = terms[0][..., 0]
         wild, grown = _growth(sizes[0], _changes(system, parts, error), error, hanging)
         errors = error, terms[0][..., 1] + terms[1][..., 0], terms[0][..., 2] + 2 * terms[1][..., 1] + terms[2][..., 0]
-        found: list[Array] = []
+        largest: list[Array] = []
         for order, error in enumerate(errors):
             # each order has the inverse twice more
             for _ in range(2 * order + 1 if wild.any() else 0):
                 error[wild] = (grown @ error[wild][..., None])[..., 0]
             error = error.reshape(n, -1, 3)
-            found += [size * np.hypot(error[..., 0], error[..., 1]), error[..., 2]]
+            largest += [size * np.hypot(error[..., 0], error[..., 1]), error[..., 2]]
         few = FEW_ROUNDINGS * UNIT * refined[:, None]
         wide = _largest(all_, len(names), size)
-        own = ErrorBound(*(found[i] + few * w for i, w in zip((0, 2, 4, 1, 3, 5), wide, strict=True)))
-        bounds = np.array([*_of_points(system, all_, own)])
+        bound = ErrorBound(*(largest[i] + few * w for i, w in zip((0, 2, 4, 1, 3, 5), wide, strict=True)))
+        bounds = np.array([*_of_points(system, all_, bound)])
         bounds = np.where(bounds < VAST**0.5, bounds * SLACK, np.inf)
         return {name: ErrorBound(*bounds[:, :, k]) for k, name in enumerate(names)}
 
@@ -131,14 +131,14 @@ class Accuracy:
 
     def _of_links(self, refined: Array) -> dict[str, Errors]:
         names = [name for name in self.structure.links if name != self.structure.scene.frame.name]
-        found = {name: np.full((6, len(self.ok)), np.nan) for name in names}
+        errors = {name: np.full((6, len(self.ok)), np.nan) for name in names}
         places = np.flatnonzero(self.ok)
         for rows in (places[first : first + BLOCK] for first in range(0, len(places) if names else 0, BLOCK)):
             poses = {name: self.poses[name].rows(rows) for name in self.structure.links}
             some = error_bounds(self.structure, poses, self.drive[rows], self.slack[rows], refined[rows])
             for name, bound in some.items():
-                found[name][:, rows] = [*bound]
-        return {name: ErrorBound(*rows) for name, rows in found.items()}
+                errors[name][:, rows] = [*bound]
+        return {name: ErrorBound(*rows) for name, rows in errors.items()}
 
 
 def most_of(bounds: Iterable[Errors]) -> Errors:
@@ -269,9 +269,9 @@ def _changes(system: Constraints, parts: Parts, error: Array) -> Array:
     swung = part * arms * np.where(ends == layout.axis, 0.0, turn[:, ends] + turned[:, None])
     seen = part * (gap * turned + (moved[:, ends] + arms * turn[:, ends]).sum(axis=1))
     entries = np.concatenate((across, across, across, across, swung.reshape(n, -1), seen), axis=1)
-    found = np.zeros((n, layout.rows * 3 * layout.members))
-    found[:, layout.entries.entries] = layout.entries.of(entries)
-    return found.reshape(n, layout.rows, -1)
+    changes = np.zeros((n, layout.rows * 3 * layout.members))
+    changes[:, layout.entries.entries] = layout.entries.of(entries)
+    return changes.reshape(n, layout.rows, -1)
 
 
 def _growth(inverse: Array, changes: Array, error: Array, hanging: Array) -> tuple[Array, Array]:
@@ -317,20 +317,20 @@ def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_err
     """The errors of values, rates and second rates of the drivers, shape (n, drivers) each (rad, m)."""
     turns = np.array([d.turns for d in structure.drivers], dtype=bool)
     value = np.abs(drive.value)
-    found = [np.where(turns, GIVEN / 2 * value + UNIT, GIVEN * value) if value_error is None else value_error.copy()]
-    found += [GIVEN * np.abs(drive.rate), GIVEN * np.abs(drive.second)]
+    errors = [np.where(turns, GIVEN / 2 * value + UNIT, GIVEN * value) if value_error is None else value_error.copy()]
+    errors += [GIVEN * np.abs(drive.rate), GIVEN * np.abs(drive.second)]
     by_laws = law_doubts(structure.drivers)
     for k in np.flatnonzero(refined):
         for j, driver in enumerate(structure.drivers):
             if by_laws[0, j]:
                 continue
-            own = float(drive.value[k, j])
-            exact = driver.exact and own == driver.values[0]
-            known = exact or (meant_angle if driver.turns else meant)(own)[1]
-            found[0][k, j] = 0.0 if known else GIVEN * abs(own)
-            for error, rate in ((found[1], drive.rate[k, j]), (found[2], drive.second[k, j])):
+            number = float(drive.value[k, j])
+            exact = driver.exact and number == driver.values[0]
+            known = exact or (meant_angle if driver.turns else meant)(number)[1]
+            errors[0][k, j] = 0.0 if known else GIVEN * abs(number)
+            for error, rate in ((errors[1], drive.rate[k, j]), (errors[2], drive.second[k, j])):
                 error[k, j] = 0.0 if meant(float(rate))[1] else GIVEN * abs(rate)
-    return [error + doubt for error, doubt in zip(found, by_laws, strict=True)]
+    return [error + doubt for error, doubt in zip(errors, by_laws, strict=True)]
 
 
 def _written(layout: Layout) -> Sequence[Array]:
@@ -361,22 +361,21 @@ def _row_errors(
     places, directed, turning = (written[which] for written in _of_form(system)[2])
     rates = np.abs(all_.omega), np.abs(all_.alpha)
     spins = np.ones_like(lean), rates[0], rates[1] + rates[0] ** 2
-    own = np.abs(layout.places) * (lean[:, layout.joints] + FEW * unit[:, None]) + 1.5 * places
-    place_errors = [(spin[:, layout.joints] * own + unit[:, None] * np.abs(place)).sum(axis=1)
+    in_link = np.abs(layout.places) * (lean[:, layout.joints] + FEW * unit[:, None]) + 1.5 * places
+    place_errors = [(spin[:, layout.joints] * in_link + unit[:, None] * np.abs(place)).sum(axis=1)
            for spin, place in zip(spins, parts.place, strict=True)]
     axis = [np.abs(layout.along) * spin[:, layout.axis] for spin in spins]
     bent = lean[:, layout.axis] + 1.5 * directed + FEW * unit
     moved = product(axis, [x[:, layout.joint] for x in place_errors])
     leant = product([x * bent for x in axis], [np.abs(x[:, layout.joint]) for x in parts.gap])
-    found, weights = np.zeros((3, len(refined), layout.rows)), np.abs(layout.rolled).T
-    one, two = layout.one, layout.two
+    errors, weights = np.zeros((3, len(refined), layout.rows)), np.abs(layout.rolled).T
     for order in range(3):
-        found[order][:, layout.line_rows.entries] = layout.line_rows.of(moved[order] + leant[order]) / layout.size
-        found[order][:, layout.driven] += given[order][:, layout.drivers] * layout.scales[1]
-    found[0][:, layout.turn_rows] += FEW * unit + 1.5 * turning
+        errors[order][:, layout.line_rows.entries] = layout.line_rows.of(moved[order] + leant[order]) / layout.size
+        errors[order][:, layout.driven] += given[order][:, layout.drivers] * layout.scales[1]
+    errors[0][:, layout.turn_rows] += FEW * unit + 1.5 * turning
     for order, rate in enumerate(rates, start=1):
-        found[order][:, layout.turn_rows] += unit * (rate[:, one] + rate[:, two])
+        errors[order][:, layout.turn_rows] += unit * (rate[:, layout.one] + rate[:, layout.two])
     if len(layout.rolling_rows):
         for order, place_errors in enumerate((lean + FEW * unit, *((FEW + 1) * unit * rate for rate in rates))):
-            found[order][:, layout.rolling_rows] += place_errors @ weights
-    return found
+            errors[order][:, layout.rolling_rows] += place_errors @ weights
+    return errors

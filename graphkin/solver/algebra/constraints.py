@@ -50,12 +50,12 @@ def solve_all(matrix: Array, right: Array) -> Array:
 
 def product(f: Jet, g: Jet) -> Jet:
     """The product of two quantities with its rates (Leibniz)."""
-    found = [f[0] * g[0]]
+    jet = [f[0] * g[0]]
     if len(f) > 1:
-        found.append(f[0] * g[1] + f[1] * g[0])
+        jet.append(f[0] * g[1] + f[1] * g[0])
     if len(f) > 2:
-        found.append(f[0] * g[2] + 2.0 * (f[1] * g[1]) + f[2] * g[0])
-    return found
+        jet.append(f[0] * g[2] + 2.0 * (f[1] * g[1]) + f[2] * g[0])
+    return jet
 
 
 class Parts(NamedTuple):
@@ -159,8 +159,8 @@ class Layout:
         """The entries of the matrix that are the same at all positions: those of turns."""
         self.constant[self.rolling_rows, 2::3] = self.rolled[:, : self.members]
         for links, sign in ((self.one, 1.0), (self.two, -1.0)):
-            own = links < self.members
-            self.constant[self.turn_rows[own], 3 * links[own] + 2] += sign
+            moving = links < self.members
+            self.constant[self.turn_rows[moving], 3 * links[moving] + 2] += sign
 
     def _set_lines(self, structure: Structure, lines: Sequence[tuple[int, Pair, complex]]) -> None:
         """The joints of lines, and the entries of the matrix that lines make."""
@@ -178,18 +178,18 @@ class Layout:
         self.along = np.array([part if pair.turns else part * pair.guide.direction.conjugate()
                                for _, pair, part in lines], dtype=complex)
         a, b = self.joints[:, self.joint]
-        own = [3 * a, 3 * a + 1, 3 * b, 3 * b + 1, 3 * a + 2, 3 * b + 2, 3 * self.axis + 2]
+        columns = [3 * a, 3 * a + 1, 3 * b, 3 * b + 1, 3 * a + 2, 3 * b + 2, 3 * self.axis + 2]
         wide, rows = 3 * self.members, np.array([row for row, *_ in lines], dtype=int)
-        self.entries = Sums(np.concatenate([np.where(column < wide, rows * wide + column, -1) for column in own]))
+        self.entries = Sums(np.concatenate([np.where(column < wide, rows * wide + column, -1) for column in columns]))
         """Of both ends of a line the columns x and y, of both and of its axis the angle."""
 
 
 def led_relation(element: Driven) -> RollingRelation:
     """The relation of a link to the links on which it rolls; of a cam's follower its own part."""
     pair, rolled = element.pair, element.rolled
-    own: Coordinate = ("angle", element.link) if pair.turns else ("travel", pair.key)
+    led: Coordinate = ("angle", element.link) if pair.turns else ("travel", pair.key)
     factors = rolled.factors if rolled else ()
-    terms = {own: Fraction(1), **{coordinate: Fraction(-factor) for coordinate, factor in factors}}
+    terms = {led: Fraction(1), **{coordinate: Fraction(-factor) for coordinate, factor in factors}}
     return RollingRelation(f"{element.link} led", terms, rolled.links if rolled else (element.link, *pair.links))
 
 
@@ -326,26 +326,26 @@ class Constraints:
         """
         layout, drive = self.layout, self.drive
         *_, gap, axis = parts or self.parts(all_, order)
-        found = np.zeros((order + 1, len(all_.z), layout.rows))
-        for k, way in enumerate(product(axis, [x[:, layout.joint] for x in gap])):
-            found[k][:, layout.line_rows.entries] = layout.line_rows.of(way.real) / layout.size
+        residuals = np.zeros((order + 1, len(all_.z), layout.rows))
+        for k, offset in enumerate(product(axis, [x[:, layout.joint] for x in gap])):
+            residuals[k][:, layout.line_rows.entries] = layout.line_rows.of(offset.real) / layout.size
         turn = all_.u[:, layout.one] * np.conj(all_.u[:, layout.two]) * layout.aim
         turn[:, layout.by_driver] *= np.conj(turned(drive.value[:, layout.angle_drivers]))
-        found[0][:, layout.turn_rows] = np.angle(turn)
+        residuals[0][:, layout.turn_rows] = np.angle(turn)
         for k, given in enumerate((drive.value, drive.rate, drive.second)[: order + 1]):
-            found[k][:, layout.driven] -= given[:, layout.drivers] * layout.scales[k]
+            residuals[k][:, layout.driven] -= given[:, layout.drivers] * layout.scales[k]
         rates = (all_.omega, all_.alpha)[:order]
         for k, rate in enumerate(rates, start=1):
-            found[k][:, layout.turn_rows] += rate[:, layout.one] - rate[:, layout.two]
+            residuals[k][:, layout.turn_rows] += rate[:, layout.one] - rate[:, layout.two]
         if not len(layout.rolling_rows):
-            return found
+            return residuals
         for k, rate in enumerate(rates, start=1):
-            found[k][:, layout.rolling_rows] += rate @ layout.rolled.T
+            residuals[k][:, layout.rolling_rows] += rate @ layout.rolled.T
         if self.near is None or self.kept is None:
-            found[0][:, layout.rolling_rows] = 0.0  # the turns are not counted
+            residuals[0][:, layout.rolling_rows] = 0.0  # the turns are not counted
         else:
-            found[0][:, layout.rolling_rows] += self.angles(all_.u) @ layout.rolled.T - self.kept
-        return found
+            residuals[0][:, layout.rolling_rows] += self.angles(all_.u) @ layout.rolled.T - self.kept
+        return residuals
 
     def matrix(self, all_: Pose) -> Array:
         """Derivative of the constraints by (x / size, y / size, angle) of each member, shape (n, rows, columns)."""
@@ -354,16 +354,16 @@ class Constraints:
     def matrices(self, parts: Parts) -> list[Array]:
         """The matrix with as many rates as the parts have."""
         layout = self.layout
-        found: list[Array] = []
+        matrices: list[Array] = []
         # what turns with the first link, with the second, with the axis
         legs = [np.concatenate((-arm[:, :1], arm[:, 1:], gap[:, None]), axis=1)[:, :, layout.joint] / layout.size
                 for arm, gap in zip(parts.arm, parts.gap, strict=True)]
         turns = product([axis[:, None] for axis in parts.axis], legs)
         for axis, turn in zip(parts.axis, turns, strict=True):
             matrix = np.zeros((len(axis), *layout.constant.shape))
-            matrix += 0.0 if found else layout.constant
+            matrix += 0.0 if matrices else layout.constant
             x, y = axis.real, axis.imag
             entries = np.concatenate((x, -y, -x, y, turn.imag.reshape(len(axis), -1)), axis=1)
             matrix.reshape(len(axis), -1)[:, layout.entries.entries] += layout.entries.of(entries)
-            found.append(matrix)
-        return found
+            matrices.append(matrix)
+        return matrices

@@ -171,8 +171,8 @@ def _rrp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
 
 def _rpr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     # both outer points in the axes of the guide: q is what the shapes of the bodies add to the travel
-    one, two = j.inner1.inverse().of(j.outer1), j.inner2.inverse().of(j.outer2)
-    q, dq, ddq = one.z - two.z, one.v - two.v, one.a - two.a
+    outer1, outer2 = j.inner1.inverse().of(j.outer1), j.inner2.inverse().of(j.outer2)
+    q, dq, ddq = outer1.z - outer2.z, outer1.v - outer2.v, outer1.a - outer2.a
     line = j.known1.z - j.known2.z
     dline, ddline = j.known1.v - j.known2.v, j.known1.a - j.known2.a
     square = _square(line)

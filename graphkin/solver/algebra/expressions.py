@@ -186,15 +186,15 @@ class Real:
         mine, its = self.value, b.value
         if mine is not None and its is not None:
             return self.graph.const(mine * its)
-        for one, two, value in ((self, b, mine), (b, self, its)):
+        for factor, rest, value in ((self, b, mine), (b, self, its)):
             if value == 0:
-                return one
+                return factor
             if value == 1:
-                return two
+                return rest
             if value == -1:
-                return -two
-            if one.line[0] == "neg":
-                return -(Real(self.graph, one.line[1]) * two)
+                return -rest
+            if factor.line[0] == "neg":
+                return -(Real(self.graph, factor.line[1]) * rest)
         if self.at == b.at and self.line[0] == "root":
             return abs(Real(self.graph, self.line[1]))
         return self.graph.line("mul", *sorted((self.at, b.at)))
@@ -432,12 +432,12 @@ class Code:
     @cached_property
     def varying(self) -> set[int]:
         """The lines that change from position to position."""
-        found: set[int] = set()
+        lines: set[int] = set()
         for at in self.order:
             line = self.graph.lines[at]
-            if line[1] in self._input if line[0] in LEAVES else any(k in found for k in operands(line)):
-                found.add(at)
-        return found
+            if line[1] in self._input if line[0] in LEAVES else any(k in lines for k in operands(line)):
+                lines.add(at)
+        return lines
 
     # one position
 

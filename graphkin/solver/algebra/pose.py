@@ -154,13 +154,13 @@ def known_where(ok: Array, values: Array) -> Array:
     return np.where(ok, values, complex(np.nan, np.nan) if np.iscomplexobj(values) else np.nan)
 
 
-def aimed(one: Pose, two: Pose) -> Pose:
+def aimed(tail: Pose, tip: Pose) -> Pose:
     """Axes at the origin of a frame that point to the origin of another."""
-    line, slip, push = two.z - one.z, two.v - one.v, two.a - one.a
+    line, slip, push = tip.z - tail.z, tip.v - tail.v, tip.a - tail.a
     square = np.abs(line) ** 2
     omega = cross(line, slip) / square
     alpha = cross(line, push) / square - 2 * omega * dot(line, slip) / square
-    return Pose(one.z, line / np.abs(line), one.v, omega, one.a, alpha)
+    return Pose(tail.z, line / np.abs(line), tail.v, omega, tail.a, alpha)
 
 
 def rest(place: complex | Array = 0j, direction: complex | Array = 1 + 0j) -> Pose:
@@ -285,9 +285,9 @@ class Drive:
         if self.value.shape[1] == len(structure.drivers):
             return self
         ratios = np.array([f.ratios for f in structure.followers]).T
-        own = np.array([d.values[0] for d in structure.scene.drivers])
+        values = np.array([d.values[0] for d in structure.scene.drivers])
         start = np.array([f.values[0] for f in structure.followers])
-        columns = (self.value, start + (self.value - own) @ ratios), (self.rate, self.rate @ ratios)
+        columns = (self.value, start + (self.value - values) @ ratios), (self.rate, self.rate @ ratios)
         return Drive(*(np.concatenate(pair, axis=1) for pair in (*columns, (self.second, self.second @ ratios))))
 
     def __getitem__(self, which: Array | slice) -> Drive:

@@ -198,13 +198,13 @@ def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mappin
     for element in structure.elements[:i]:
         before.update(element.members)
     known = {p for name in before for p in structure.links[name].points}
-    found: dict[str, complex] = {}
+    places: dict[str, complex] = {}
     for name in links:
         pose = poses[name]
         for point, place in structure.links[name].points.items():
             if point not in known:
-                found[point] = complex(np.ravel(pose.z + pose.u * place)[0])
-    return found
+                places[point] = complex(np.ravel(pose.z + pose.u * place)[0])
+    return places
 
 
 def group_at(structure: Structure, drive: Drive, modes: Mapping[int, Array], which: int) -> GroupSolved:
@@ -349,8 +349,8 @@ class _Run:
                 asked.append(((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real)
         value = np.full(self.n, rolled.start)
         wide = np.abs(value) + 1.0 * rolled.turns
-        for k, (found, (_, factor)) in enumerate(zip(self._values(("rolled", i), asked), rolled.factors, strict=True)):
-            at = np.broadcast_to(found, (self.n,))
+        for k, (at, (_, factor)) in enumerate(zip(self._values(("rolled", i), asked), rolled.factors, strict=True)):
+            at = np.broadcast_to(at, (self.n,))
             if np.iscomplexobj(at):
                 angle, near = np.angle(at), mode[:, 2 * k + 1]
                 at = angle + 2 * np.pi * np.rint((near - angle) / (2 * np.pi))
@@ -394,12 +394,12 @@ class _Run:
         params = self.dimensioned.params(code.params, self.rates_of)
         inputs = [self.given[name] for name in code.inputs]
         out: list[Array] = []
-        found = []
+        columns = []
         for x in asked:
-            found.append(np.empty(self.n, dtype=np.complex128 if isinstance(x, Vec) else np.float64))
-            out += [found[-1].real, found[-1].imag] if isinstance(x, Vec) else [found[-1]]
+            columns.append(np.empty(self.n, dtype=np.complex128 if isinstance(x, Vec) else np.float64))
+            out += [columns[-1].real, columns[-1].imag] if isinstance(x, Vec) else [columns[-1]]
         code.arrays(code.invariants(params), inputs, out)
-        return found
+        return columns
 
     def _given_at_first(self, name: Name) -> float:
         """A number that the formulas are given, at the first position."""
@@ -449,10 +449,10 @@ def closes(structure: Structure, i: int, modes: Mapping[int, Array], drive: Driv
     undecided; and whether the file's digits leave it open.  Shapes (n,)."""
     discriminant = discriminant_of(structure, i, modes, drive)
     with working():
-        told = [discriminant.with_doubt(k) for k in range(len(drive))]
-    found = np.array([_sign(*one) for one in told], dtype=int)
-    return found, np.array([not sign and ROUNDING < doubt < UNKNOWN
-                            for sign, (_, doubt) in zip(found, told, strict=True)], dtype=bool)
+        readings = [discriminant.with_doubt(k) for k in range(len(drive))]
+    signs = np.array([_sign(*reading) for reading in readings], dtype=int)
+    return signs, np.array([not sign and ROUNDING < doubt < UNKNOWN
+                            for sign, (_, doubt) in zip(signs, readings, strict=True)], dtype=bool)
 
 
 def _sign(value: Decimal, doubt: Decimal) -> int:

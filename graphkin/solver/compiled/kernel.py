@@ -191,9 +191,9 @@ def _library() -> dict[str, Any]:
             for k in range(FINE):
                 cosine[k] = c * fine_c[k] - s * fine_s[k]
                 sine[k] = s * fine_c[k] + c * fine_s[k]
-        one, two = (start + step * first) / HALF_PI, (start + step * (first + count - 1)) / HALF_PI
-        for quarter in range(math.ceil(min(one, two) - 1e-6), math.floor(max(one, two) + 1e-6) + 1):
-            k = round((quarter - one) * HALF_PI / step)
+        begin, end = (start + step * first) / HALF_PI, (start + step * (first + count - 1)) / HALF_PI
+        for quarter in range(math.ceil(min(begin, end) - 1e-6), math.floor(max(begin, end) + 1e-6) + 1):
+            k = round((quarter - begin) * HALF_PI / step)
             if 0 <= k < count:
                 room[k], room[TILE + k] = turn(start + step * (first + k))
 

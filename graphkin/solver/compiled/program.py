@@ -99,9 +99,9 @@ class Program:
         """The value of a rolling link, and its rates, from those of the links on which it rolls."""
         rate = second = self.graph.const(0)
         for coordinate, _ in rolled.factors:
-            one, two = self.rates_of(coordinate)
+            velocity, acceleration = self.rates_of(coordinate)
             factor = self.number("ratio", rolled.key, *coordinate).real
-            rate, second = rate + factor * one, second + factor * two
+            rate, second = rate + factor * velocity, second + factor * acceleration
         if rolled.turns:
             stands: Real | Vec = Vec(*(self.graph.input(("rolled", rolled.key, part)) for part in ("cos", "sin")))
         else:
@@ -193,16 +193,16 @@ class Program:
         """The six joint frames of a dyad, from the shapes of its bodies."""
 
         def frame(pair: Pair, poses: Mapping[str, PoseFormula]) -> PoseFormula:
-            """A pair on the one of its links that has a pose."""
+            """A pair on the link that has a pose."""
             link = pair.a if pair.a in poses else pair.b
             at = self.rest(pair, link)
             return poses[link].fixed(at.z, at.u)
 
-        one, two = dyad.outer_first, dyad.outer_second
+        left, right = dyad.outer_first, dyad.outer_second
         return Joints(
-            frame(one, self.poses), frame(one, first), frame(dyad.inner, first),
-            frame(two, self.poses), frame(two, second), frame(dyad.inner, second),
-            1.0 if two.a in second else -1.0, self.graph.param(("size",)),
+            frame(left, self.poses), frame(left, first), frame(dyad.inner, first),
+            frame(right, self.poses), frame(right, second), frame(dyad.inner, second),
+            1.0 if right.a in second else -1.0, self.graph.param(("size",)),
         )
 
     # code
