@@ -87,15 +87,15 @@ def numeral(number: int, width: float, size: float = SIZE, *, bold: bool = False
 
 def numbered(number: int, text: Words, width: float, size: float = SIZE, *, step: int | None = None) -> Block:
     """A paragraph after its number."""
-    told = prose((text,), width - INDENT, size, classes=TOLD, step=step)
-    return row(numeral(number, INDENT, size, bold=True, step=step, classes=TOLD), told)
+    paragraph = prose((text,), width - INDENT, size, classes=TOLD, step=step)
+    return row(numeral(number, INDENT, size, bold=True, step=step, classes=TOLD), paragraph)
 
 
 def column(*blocks: Block | None, gap: float = 0.0) -> Block:
     """Blocks below each other; those without height take no gap."""
     pieces: list[Piece] = []
     y = width = 0.0
-    for block in (one for one in blocks if one is not None and one.height):
+    for block in (block for block in blocks if block is not None and block.height):
         y += gap if pieces else 0.0
         pieces.append(block.moved(complex(0.0, y)))
         y, width = y + block.height, max(width, block.width)
@@ -109,7 +109,7 @@ def row(*blocks: Block, gap: float = 0.0) -> Block:
     for block in blocks:
         pieces.append(block.moved(complex(x, 0.0)))
         x += block.width + gap
-    return Block(joined(pieces), max((one.height for one in blocks), default=0.0), max(0.0, x - gap))
+    return Block(joined(pieces), max((block.height for block in blocks), default=0.0), max(0.0, x - gap))
 
 
 def pages(blocks: Iterable[Block], height: float, gap: float) -> list[Block]:
@@ -216,9 +216,9 @@ def foot(scale: Words, width: float, language: str, note: Words = "") -> Block:
     """The scale, a bar that checks a print, and a small note below them."""
     base = 8.0j
     bar = check_bar(base + width - BAR, fitted(term("check bar", language, length="50 mm"), 2.5, BAR))
-    told = (Text(base, fitted(scale, SCALE, width - BAR - 6.0)),) if scale else ()
+    words = (Text(base, fitted(scale, SCALE, width - BAR - 6.0)),) if scale else ()
     more = (Text(base + 3.8j, fitted(note, 2.4, width)),) if note else ()
-    return Block(Piece({"labels": (*told, *bar, *more)}), base.imag, width)
+    return Block(Piece({"labels": (*words, *bar, *more)}), base.imag, width)
 
 
 def page(
@@ -245,7 +245,7 @@ def page(
 
 def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
     """The content of a page without its heading, for a paper with the same heading."""
-    return map_tree(children, lambda one: None if isinstance(one, Text) and "heading" in one.classes else one)
+    return map_tree(children, lambda part: None if isinstance(part, Text) and "heading" in part.classes else part)
 
 
 def worked_page(
@@ -260,16 +260,16 @@ def worked_page(
     names : of the task, in each language in which it has one
     title, said : of the figure as a key of the table of words, and the figure in words
     """
-    own, every, account = dict.fromkeys(names), languages(language), account_of(sheet)
-    told = [
+    head, every, account = dict.fromkeys(names), languages(language), account_of(sheet)
+    work = [
         column(*(numbered(step.number, account.say(step.phrase, each), WORKED, STEP, step=step.number)
                  for step in sheet.steps)) for each in every
     ]
     lines = [line.with_words(in_sentence) for note in notes for line in in_all(note, language)]
     return page(
-        heading(own, given, WORKED), column(*drawn, *told, results, prose(lines, WORKED, STEP, classes=TOLD), gap=3.0),
+        heading(head, given, WORKED), column(*drawn, *work, results, prose(lines, WORKED, STEP, classes=TOLD), gap=3.0),
         foot(scale, WORKED, language), said=said, language=language, metadata=metadata, margin=12.0,
-        title=f"{' / '.join(own)}: {word(title, every[0])}",
+        title=f"{' / '.join(head)}: {word(title, every[0])}",
     )
 
 
@@ -282,9 +282,9 @@ def spoken(account: Account, phrases: Iterable[Phrase], language: str) -> str:
 
 def picture(body: Block, title: str, language: str, metadata: Mapping[str, object], scale: Words = "") -> Drawing:
     """A block by itself, with its scale below it if it has one, for a paper with the other words."""
-    told = word(title, languages(language)[0])
+    words = word(title, languages(language)[0])
     low = foot(scale, WORKED, language) if scale else BARE
-    return page(BARE, body, low, title=told, said=told, language=language, metadata=metadata, margin=2.0)
+    return page(BARE, body, low, title=words, said=words, language=language, metadata=metadata, margin=2.0)
 
 
 @dataclass(frozen=True)
@@ -334,7 +334,7 @@ class FigurePage:
 
     def prose(self, said: Iterable[Wording], size: float = SIZE, *, bold: bool = False) -> Block:
         """A statement in every language of the page."""
-        return prose((line for one in said for line in in_all(one, self.language)), self.width, size, bold=bold)
+        return prose((line for words in said for line in in_all(words, self.language)), self.width, size, bold=bold)
 
     def panel(self, height: float, draw: Callable[[Box], Piece]) -> Block:
         return panel(self.width, height, draw)

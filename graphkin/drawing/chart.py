@@ -203,7 +203,7 @@ def add_panel(figure: Figure, box: Box, id: str, title: Words = "", x_title: Wor
     return axes
 
 
-def add_words(figure: Figure, *things: Text | Line) -> None:
+def add_words(figure: Figure, *parts: Text | Line) -> None:
     """Texts with their strokes, in mm of the page."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
@@ -211,18 +211,18 @@ def add_words(figure: Figure, *things: Text | Line) -> None:
 
     mm = Affine2D().scale(1 / MM_PER_INCH, -1 / MM_PER_INCH).translate(0.0, figure.get_figheight())
     placed: Look = {"transform": mm + figure.dpi_scale_trans, "zorder": IN_FRONT, "clip_on": False}
-    for thing in things:
-        if isinstance(thing, Line):
-            ends = [(z.real, z.imag) for z in (thing.start, thing.end)]
-            line = {"edgecolor" if key == "color" else key: value for key, value in look(thing.stroke).items()}
+    for part in parts:
+        if isinstance(part, Line):
+            ends = [(z.real, z.imag) for z in (part.start, part.end)]
+            line = {"edgecolor" if key == "color" else key: value for key, value in look(part.stroke).items()}
             figure.add_artist(PathPatch(
                 Path(ends), facecolor="none", capstyle="butt", joinstyle="round", snap=False, **line, **placed))
             continue
-        for k, run in enumerate(start_runs(thing)):
+        for k, run in enumerate(start_runs(part)):
             figure.text(
                 run.x, run.y, run.text, family=_faces(run.text), size=run.size * POINTS_PER_MM,
-                style="italic" if run.italic else "normal", weight="bold" if run.bold else "normal", color=thing.colour,
-                ha="left", va="baseline", parse_math=False, gid=thing.id if thing.id and k == 0 else None, **placed,
+                style="italic" if run.italic else "normal", weight="bold" if run.bold else "normal", color=part.colour,
+                ha="left", va="baseline", parse_math=False, gid=part.id if part.id and k == 0 else None, **placed,
             )
 
 
@@ -362,7 +362,7 @@ def _in_the_way(axes: Axes) -> Obstacles:
                 if both or math.isfinite(abs(a - b))
             )
             kept = ground if line.get_zorder() <= BEHIND else solid
-            kept.extend(one for one in parts if one is not None)
+            kept.extend(segment for segment in parts if segment is not None)
         if line.get_marker() not in ("", "None", None):
             reach = line.get_markersize() / POINTS_PER_MM / 2
             areas += [Box.around((z,)).grown(reach) for z in points if math.isfinite(abs(z))]

@@ -104,7 +104,7 @@ def _fullest(tried: Iterable[Placed], count: int) -> tuple[tuple[Primitive, ...]
         best = max(best, placed, key=len)
         if len(best) == count:
             break
-    return tuple(thing for block, at in best for thing in block.moved(at).drawn), len(best)
+    return tuple(part for block, at in best for part in block.moved(at).drawn), len(best)
 
 
 def _in_columns(blocks: Iterable[Block], wide: float, height: float, columns: int) -> Placed:
@@ -160,24 +160,24 @@ def _short(sheet: Sheet, equation: Equation, letters: Notation) -> RichText | No
     parts = [letters.vector(side[0].symbol) for side in equation.sides]
     if only.size and only.size != GIVEN:
         parts.append(letters.size(only.size))
-    found = bound(rule_sum(sheet, only.size, equation.diagram))  # the product of what is written
-    if not found:
+    amount = bound(rule_sum(sheet, only.size, equation.diagram))  # the product of what is written
+    if not amount:
         laid_off = (s.mm for s in sheet.steps if s.verb == "lay off" and s.symbol == only.symbol)
         # what is given is not what a hand has made of it
         value = next(laid_off, abs(vector.span)) * scale_of(sheet, equation.diagram)
-        found = bound(f"{number(value, MOST)} {unit_of(sheet, equation.diagram).written}")
-    parts.append(found)
-    way = letters.direction(only.direction, sheet.scene.frame.name)
-    return spaced(" =\u00a0", parts) + (",  " + way if way else "")
+        amount = bound(f"{number(value, MOST)} {unit_of(sheet, equation.diagram).written}")
+    parts.append(amount)
+    direction = letters.direction(only.direction, sheet.scene.frame.name)
+    return spaced(" =\u00a0", parts) + (",  " + direction if direction else "")
 
 
 def _cells(sheet: Sheet, sides: Sequence[Sequence[Term]], letters: Notation, size: float) -> list[_Cell]:
     """The terms of equal sums, each after its sign."""
     cells: list[_Cell] = []
-    for k, one in (numbered for side in sides for numbered in enumerate(side)):
+    for k, summand in (numbered for side in sides for numbered in enumerate(side)):
         if cells:
             cells.append(_Cell(rich("+" if k else "=", size), is_term=False))
-        cells.append(_cell(sheet, one, letters, size))
+        cells.append(_cell(sheet, summand, letters, size))
     return cells
 
 
@@ -185,21 +185,21 @@ def _row_size(size: float) -> float:
     return max(LEAST_ROW, 0.8 * size)
 
 
-def _cell(sheet: Sheet, one: Term, letters: Notation, size: float) -> _Cell:
+def _cell(sheet: Sheet, term: Term, letters: Notation, size: float) -> _Cell:
     """A term with its rows; if marks show what is known, the rows only give size and direction."""
     rows = rows_of(letters.convention)
     small = _row_size(size)
-    whole = rich(letters.term(one), size)
-    rule = letters.size(one.size) if one.size and one.size != GIVEN else ""
-    way = letters.direction(one.direction, sheet.scene.frame.name)
-    told = rich(rule, small) if rule else (), rich(way, small) if way else ()
+    whole = rich(letters.term(term), size)
+    rule = letters.size(term.size) if term.size and term.size != GIVEN else ""
+    direction = letters.direction(term.direction, sheet.scene.frame.name)
+    written = rich(rule, small) if rule else (), rich(direction, small) if direction else ()
     if rows == "over":
-        marks = ("√" if one.size_known else "?") + ("√" if one.direction_known else "?")
-        return _Cell(whole, *told, over=rich(marks, small))
+        marks = ("√" if term.size_known else "?") + ("√" if term.direction_known else "?")
+        return _Cell(whole, *written, over=rich(marks, small))
     if rows == "underlines":
-        return _Cell(whole, *told, underlines=one.direction_known + one.size_known)
-    sized = told[0] or rich("√" if one.size_known else "?", small)
-    return _Cell(whole, sized, told[1] or rich("√" if one.direction_known else "?", small))
+        return _Cell(whole, *written, underlines=term.direction_known + term.size_known)
+    sized = written[0] or rich("√" if term.size_known else "?", small)
+    return _Cell(whole, sized, written[1] or rich("√" if term.direction_known else "?", small))
 
 
 def _heads(letters: Notation, language: str, size: float) -> tuple[tuple[Run, ...], ...]:

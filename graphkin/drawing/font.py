@@ -92,7 +92,7 @@ def glyph(character: str, style: Style = "regular") -> Glyph | None:
 
 def held(style: Style, characters: Iterable[str]) -> dict[int, Glyph]:
     """The glyphs of those characters that a face has, by their codes in order."""
-    return {ord(c): found for c in sorted(set(characters)) if (found := glyph(c, style)) is not None}
+    return {ord(c): sign for c in sorted(set(characters)) if (sign := glyph(c, style)) is not None}
 
 
 NAME = struct.pack(">9H", 0, 1, 18, 3, 1, 0x409, 1, 2 * len(FAMILY), 0) + FAMILY.encode("utf-16-be")
@@ -111,14 +111,14 @@ def part(style: Style, characters: frozenset[str]) -> bytes:
     from fontTools.ttLib.tables._g_l_y_f import Glyph as Outline
     from fontTools.ttLib.ttFont import sortedTagList
 
-    glyphs = {f"u{code:04X}": found for code, found in held(style, characters).items()}
+    glyphs = {f"u{code:04X}": sign for code, sign in held(style, characters).items()}
     font = TTFont(FOLDER / f"{style}.ttf", lazy=True, recalcBBoxes=False, recalcTimestamp=False)
     builder = FontBuilder(font=font)
     builder.setupGlyphOrder([".notdef", *glyphs])
     builder.setupCharacterMap({int(name[1:], 16): name for name in glyphs})
     builder.setupHorizontalMetrics({".notdef": (500, 0)} | {n: (g.advance, g.box[0]) for n, g in glyphs.items()})
     font["loca"], font["glyf"] = newTable("loca"), newTable("glyf")
-    font["glyf"].glyphs = {".notdef": Outline()} | {name: Outline(found.outline) for name, found in glyphs.items()}
+    font["glyf"].glyphs = {".notdef": Outline()} | {name: Outline(sign.outline) for name, sign in glyphs.items()}
     stream = BytesIO()
     tables = {tag: font.getTableData(tag) for tag in MADE} | {"name": NAME}
     packed = SFNTWriter(stream, len(tables), font.sfntVersion, "woff")
@@ -184,11 +184,11 @@ def _font() -> TTFont | None:
 
 def _installed() -> list[Path]:
     """The installed known faces, the best first."""
-    found: dict[str, Path] = {}
+    paths: dict[str, Path] = {}
     for folder in _FOLDERS:
         for place, _, names in os.walk(os.path.expanduser(folder)):
-            found.update((name.lower(), Path(place, name)) for name in names)
-    return [found[name.lower()] for name in _FILES if name.lower() in found]
+            paths.update((name.lower(), Path(place, name)) for name in names)
+    return [paths[name.lower()] for name in _FILES if name.lower() in paths]
 
 
 # Where a program passes over embedded faces, as Inkscape does: Times and its twins, then faces that have the signs of
@@ -210,9 +210,9 @@ def face_rules(used: Mapping[Style, Iterable[str]]) -> tuple[str, str]:
     if not letters:
         return FAMILY, ""
     glyphs = b"".join(
-        struct.pack(">IH", code, found.advance) + found.outline
+        struct.pack(">IH", code, sign.advance) + sign.outline
         for style, characters in letters.items()
-        for code, found in held(style, characters).items()
+        for code, sign in held(style, characters).items()
     )
     name = f"{FAMILY} {crc32(glyphs):08x}"
     rules = (
@@ -242,11 +242,11 @@ def outline(text: str, at: complex, size: float, style: Style) -> str:
 
     pen = SVGPathPen(None, ntos=lambda mm: f"{mm:.2f}".rstrip("0").rstrip("."))
     times, x = size / EM, at.real
-    for found in filter(None, (glyph(character, style) for character in text)):
-        if found.outline:
-            shape = Outline(found.outline)
+    for sign in filter(None, (glyph(character, style) for character in text)):
+        if sign.outline:
+            shape = Outline(sign.outline)
             shape.expand(None)
             shape.draw(TransformPen(pen, (times, 0, 0, -times, x, at.imag)), None)
-        x += found.advance * times
+        x += sign.advance * times
     commands: str = pen.getCommands()
     return commands

@@ -88,4 +88,4 @@ def centred(
 def cut_piece(piece: Piece, box: Box) -> Piece:
     """The part of a piece in a box, with the names of its visible parts."""
     layers = {name: cut_to(things, box) for name, things in piece.layers.items()}
-    return Piece(layers, tuple(one for one in piece.labels if box.distance(middle_of(one.mark)) == 0.0), piece.marks)
+    return Piece(layers, tuple(name for name in piece.labels if box.distance(middle_of(name.mark)) == 0.0), piece.marks)

@@ -195,7 +195,7 @@ def _landscape(width: float, height: float, cost: float, wished: bool) -> Iterat
         plan = SheetPlan(width, height, first, second, second.moved(complex(each + GUTTER, 0)), block, dear)
         if not continued:
             low = Box(page.left, bottom + GUTTER + CAPTION, page.right, block.top - GUTTER)
-            one, two = page.left + 0.17 * page.width, page.left + 0.53 * page.width
-            plan = replace(plan, equations=low._replace(left=one + GUTTER, right=two), given=low._replace(right=one),
-                           readings=low._replace(left=two + GUTTER))
+            near, far = page.left + 0.17 * page.width, page.left + 0.53 * page.width
+            plan = replace(plan, equations=low._replace(left=near + GUTTER, right=far), given=low._replace(right=near),
+                           readings=low._replace(left=far + GUTTER))
         yield plan

@@ -23,70 +23,70 @@ from graphkin.drawing.ink.primitives import (
 FADED = 0.42  # of its colour is left to what was drawn before
 
 
-def step_of(thing: Primitive) -> int | None:
+def step_of(part: Primitive) -> int | None:
     """The number of the step that draws a primitive; None without a step, and for a part of a group."""
-    if not isinstance(thing, Group | Text):
+    if not isinstance(part, Group | Text):
         return None
-    return thing.since if thing.step is None else thing.step
+    return part.since if part.step is None else part.step
 
 
 def stepped(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
     """The figure with the step of every primitive as a class, by which pages show and hide it."""
 
-    def change(thing: Primitive) -> Primitive:
-        return thing._replace(step=step_of(thing)) if isinstance(thing, Group | Text) else thing
+    def change(part: Primitive) -> Primitive:
+        return part._replace(step=step_of(part)) if isinstance(part, Group | Text) else part
 
     return tied(map_tree(children, change))
 
 
 def unstepped(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
     """The figure without its steps, beside another whose steps are counted."""
-    return map_tree(children, lambda one: one._replace(step=None) if isinstance(one, Group | Text) else one)
+    return map_tree(children, lambda part: part._replace(step=None) if isinstance(part, Group | Text) else part)
 
 
 def tied(children: Iterable[Primitive]) -> tuple[Primitive, ...]:
     """The figure with every leader in a group of the step of its name."""
 
-    def change(thing: Primitive) -> Primitive:
-        if not isinstance(thing, Group):
-            return thing
-        held = thing.children
+    def change(group: Primitive) -> Primitive:
+        if not isinstance(group, Group):
+            return group
+        held = group.children
         inside = tuple(
             Group((part,), classes=("leader",), step=after.step)
             if isinstance(part, Line) and isinstance(after, Text) and "label" in after.classes else part
             for part, after in zip(held, (*held[1:], None), strict=False)
         )
-        return thing._replace(children=inside)
+        return group._replace(children=inside)
 
     return map_tree(children, change)
 
 
 def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primitive, ...]:
     """The parts up to step ``last``, parts before step ``first`` faded, new ones on a pale band."""
-    found: list[Primitive] = []
-    for thing in children:
-        step = step_of(thing)
+    parts: list[Primitive] = []
+    for part in children:
+        step = step_of(part)
         if step is not None and step > last:
             continue
-        if step is None and isinstance(thing, Group):
-            inside = so_far(thing.children, first, last)
-            found += [thing._replace(children=inside)] if inside else []
+        if step is None and isinstance(part, Group):
+            inside = so_far(part.children, first, last)
+            parts += [part._replace(children=inside)] if inside else []
         elif step is not None and step < first:
-            found += strokes.pale((thing,), FADED, FADED + 0.2)
+            parts += strokes.pale((part,), FADED, FADED + 0.2)
         else:
-            if step is not None and isinstance(thing, Group) and not {"inset", "ring"} & set(thing.classes):
-                halo = tuple(band for child in thing.children for band in _band(child))
-                found += [Group(halo, classes=("new",))] if halo else []
-            found.append(thing)
-    return tuple(found)
+            if step is not None and isinstance(part, Group) and not {"inset", "ring"} & set(part.classes):
+                halo = tuple(band for child in part.children for band in _band(child))
+                parts += [Group(halo, classes=("new",))] if halo else []
+            parts.append(part)
+    return tuple(parts)
 
 
-def _band(thing: Primitive) -> list[Primitive]:
+def _band(part: Primitive) -> list[Primitive]:
     """The pale band under a stroke; none under areas and words."""
-    if isinstance(thing, Line) and thing.start != thing.end:
-        return [Line(thing.start, thing.end, strokes.HALO)]
-    if isinstance(thing, Polyline | Arc) or (isinstance(thing, Polygon) and thing.stroke and not thing.fill):
-        return [thing._replace(stroke=strokes.HALO)]
-    if isinstance(thing, Circle):
-        return [Circle(thing.centre, thing.radius + strokes.HALO.width / 2, strokes.HALO.colour)]
+    if isinstance(part, Line) and part.start != part.end:
+        return [Line(part.start, part.end, strokes.HALO)]
+    if isinstance(part, Polyline | Arc) or (isinstance(part, Polygon) and part.stroke and not part.fill):
+        return [part._replace(stroke=strokes.HALO)]
+    if isinstance(part, Circle):
+        return [Circle(part.centre, part.radius + strokes.HALO.width / 2, strokes.HALO.colour)]
     return []

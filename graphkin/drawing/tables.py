@@ -62,7 +62,7 @@ def readings_table(
 def table_rows(report: Report) -> list[TableRow]:
     """The readings of the table in order: without given rates; links that turn alike share a row."""
     shown: list[TableRow] = []
-    for compared in (one for one in report.rows if one.symbol.scope != "force"):
+    for compared in (compared for compared in report.rows if compared.symbol.scope != "force"):
         symbol = compared.symbol
         if symbol.is_vector or symbol.scope != "motion":
             shown.append(TableRow(compared))
@@ -75,8 +75,8 @@ def table_rows(report: Report) -> list[TableRow]:
     return sorted(shown, key=lambda row: row.rank)
 
 
-def _alike(one: Reading, other: Reading) -> bool:
-    return (one.symbol.kind, one.value, one.on_paper) == (other.symbol.kind, other.value, other.on_paper)
+def _alike(first: Reading, second: Reading) -> bool:
+    return (first.symbol.kind, first.value, first.on_paper) == (second.symbol.kind, second.value, second.on_paper)
 
 
 def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:

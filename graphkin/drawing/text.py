@@ -142,7 +142,7 @@ def _pieces(text: Words) -> Sequence[Words]:
                 piece, word = RichText(), ""
             piece, word, before = RichText(piece, word, *part), "", "symbol"
             continue
-        inner = {i for found in _UNBROKEN.finditer(part) for i in range(found.start() + 1, found.end())}
+        inner = {i for match in _UNBROKEN.finditer(part) for i in range(match.start() + 1, match.end())}
         for i, character in enumerate(part):
             # no line begins with a mark that closes or ends with one that opens; after a comma of theirs it may break
             closes, opened = character in "，。；：、）》”", before in ("（", "《", "“")
@@ -181,15 +181,15 @@ def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, b
             continue
         above = None
         character = "−" if atom.text == "-" and level == 0 else atom.text
-        own = is_italic(character) and not atom.bold, atom.bold
-        if stretch and (face != own or atom.arrow):
+        style = is_italic(character) and not atom.bold, atom.bold
+        if stretch and (face != style or atom.arrow):
             flush()
         reach = x
         if atom.arrow:
-            over, x, reach = _arrow_over(character, own, x, y, size)
+            over, x, reach = _arrow_over(character, style, x, y, size)
             runs.append(over)
         if not stretch:
-            begin, face = x, own
+            begin, face = x, style
         stretch += character
         x = begin + width(stretch, size, *face)
         if atom.arrow and not atom.sub:
@@ -208,9 +208,9 @@ def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, b
 
 def _arrow_over(letter: str, face: tuple[bool, bool], x: float, y: float, size: float) -> tuple[Run, float, float]:
     """The arrow over a letter at a place, the place of the letter with it, and the end of the arrow."""
-    own, sign = glyph(letter, style_of(*face)), glyph(_ARROW)
+    base, sign = glyph(letter, style_of(*face)), glyph(_ARROW)
     left, low, right, _ = sign.box if sign else (0, 0, EM, 0)
-    start, _, end, top = own.box if own else (0, 0, EM, EM)
+    start, _, end, top = base.box if base else (0, 0, EM, EM)
     long = max(SMALLEST, _ARROW_SIZE * size) / EM
     begin = x + (start + end) / EM * size / 2 + _SLANT * size - (left + right) * long / 2
     shift = max(0.0, x - begin)
@@ -264,9 +264,9 @@ def width(text: str, size: float, italic: bool = False, bold: bool = False) -> f
 @lru_cache(maxsize=8192)
 def _advance(character: str, style: Style) -> float:
     """Advance width in sizes."""
-    found = glyph(character, style)
-    if found is not None:
-        return found.advance / EM
+    sign = glyph(character, style)
+    if sign is not None:
+        return sign.advance / EM
     return 1.0 if is_cjk(character) else 0.0 if unicodedata.combining(character) else UNKNOWN
 
 
@@ -283,13 +283,13 @@ def run_box(run: Run) -> Box:
 @lru_cache(maxsize=4096)
 def _reach(text: str, style: Style) -> tuple[float, float, float, float]:
     """The reach of ink beyond the start, above the baseline, beyond the advance and below the baseline, in sizes."""
-    found = [g for c in text if (g := glyph(c, style)) is not None]
-    if not found:
+    signs = [g for c in text if (g := glyph(c, style)) is not None]
+    if not signs:
         return 0.0, ASCENT, 0.0, DESCENT
-    first, last = found[0], found[-1]
+    first, last = signs[0], signs[-1]
     return (
-        max(0, -first.box[0]) / EM, max(ASCENT, *(g.box[3] / EM for g in found)),
-        max(0, last.box[2] - last.advance) / EM, max(DESCENT, *(-g.box[1] / EM for g in found)),
+        max(0, -first.box[0]) / EM, max(ASCENT, *(g.box[3] / EM for g in signs)),
+        max(0, last.box[2] - last.advance) / EM, max(DESCENT, *(-g.box[1] / EM for g in signs)),
     )
 
 

@@ -41,5 +41,5 @@ class Figure:
 def figure_kinds() -> Mapping[str, Figure]:
     """Every figure by its name, in their order."""
     modules = (import_module(f"{__name__}.{file.name}") for file in iter_modules(__path__))
-    found = [one for module in modules for one in getattr(module, "FIGURES", ())]
-    return {one.name: one for one in sorted(found, key=lambda one: one.place)}
+    figures = [figure for module in modules for figure in getattr(module, "FIGURES", ())]
+    return {figure.name: figure for figure in sorted(figures, key=lambda figure: figure.place)}

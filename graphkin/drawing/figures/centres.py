@@ -92,16 +92,15 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
     room, and none where there is too little.
     """
     names = sorted(centres.names, key=in_counting_order)
-    ways = {n: cmath.rect(1.0, 2 * math.pi * k / len(names)) * -1j for k, n in enumerate(names)}
-    sides = {c: (middle + radius * ways[c.pair[0]], middle + radius * ways[c.pair[1]]) for c in centres.found}
+    spokes = {n: cmath.rect(1.0, 2 * math.pi * k / len(names)) * -1j for k, n in enumerate(names)}
+    sides = {c: (middle + radius * spokes[c.pair[0]], middle + radius * spokes[c.pair[1]]) for c in centres.found}
     lines: list[Primitive] = []
     numbers: list[Primitive] = []
     taken: list[complex] = []
     for centre, (a, b) in sides.items():
         if centre.place is None:
             continue
-        found = strokes.OTHERWISE if centre.way else strokes.FOUND
-        stroke = strokes.PERMANENT if centre.kind == "permanent" else found
+        stroke = strokes.PERMANENT if centre.kind == "permanent" else strokes.OTHERWISE if centre.way else strokes.FOUND
         at = None
         if centre.number:
             at = _free(a, b, [side for side in sides.values() if side != (a, b)], taken, middle, radius)
@@ -117,7 +116,7 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
     thin = strokes.DIMENSION.coloured(strokes.GREY)
     outline = (Arc(middle, radius, k * math.pi, (k + 1) * math.pi, thin) for k in (0, 1))
     knots: list[Primitive] = []
-    for name, spoke in ways.items():
+    for name, spoke in spokes.items():
         colour, runs = colour_of_link(centres.scene, name), plain(name, KNOT, bold=True)
         box = text_box(Text(0j, runs, "middle", colour))
         there = middle + (radius + OUTSIDE + max(box.width * abs(spoke.real), box.height) / 2) * spoke
@@ -136,8 +135,8 @@ def _free(
     a number would touch one of them."""
     places = a + (b - a) * SHARES
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
-    starts, ways = (np.array(ends)[:, None] for ends in ([p for p, _ in others], [q - p for p, q in others]))
-    near += [*(np.abs(cross(places - starts, ways)) / np.abs(ways))]
+    starts, spans = (np.array(ends)[:, None] for ends in ([p for p, _ in others], [q - p for p, q in others]))
+    near += [*(np.abs(cross(places - starts, spans)) / np.abs(spans))]
     room: list[float] = np.minimum.reduce([np.full(len(places), WIDE), *near]).tolist()
     spots: list[complex] = places.tolist()
     # of two places that are alike the first: rounding, so that the last bit does not choose
@@ -311,11 +310,11 @@ def _pointer(inside: Box, solid: Sequence[Segment], centre: Centre) -> Segment:
     middle = inside.centre
     far = None if centre.point is None else on_page(centre.point)
     if far is not None:
-        ways = [unit(far - middle)]
+        headings = [unit(far - middle)]
     else:
         assert centre.direction is not None
-        ways = [on_page(centre.direction), -on_page(centre.direction)]
-    for turned, straight in enumerate(ways):
+        headings = [on_page(centre.direction), -on_page(centre.direction)]
+    for turned, straight in enumerate(headings):
         for aside in ASIDES:
             start = middle + 1j * straight * aside
             aim = straight if far is None else unit(far - start)
@@ -374,8 +373,8 @@ def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
 def background(piece: Piece, *also: str) -> Piece:
     """The mechanism alone, pale: without lengths, rate arrows and compass arcs; with groups of the classes ``also``."""
     kept = tuple(
-        thing for thing in piece.layers["mechanism"]
-        if isinstance(thing, Group) and {"frame", "link", "point", "cam", *also} & set(thing.classes)
+        part for part in piece.layers["mechanism"]
+        if isinstance(part, Group) and {"frame", "link", "point", "cam", *also} & set(part.classes)
     )
     names = tuple(name for name in piece.labels if name.text.id.startswith(("label-point-", "label-link-")))
     return Piece({"mechanism": pale(kept)}, names, piece.marks)
@@ -386,14 +385,14 @@ def _side(page: FigurePage, centres: Centres) -> Block:
     constructions."""
     letters = page.letters
     radius = RADIUS.get(len(centres.names), 23.0)
-    found = [
+    rows = [
         (c.number, letters.centre(c.pair), _how_found(c, letters, page.language))
         for c in centres.found if c.number
     ]
-    wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for _, name, _ in found)])
+    wide = max([NAME, *(runs_width(rich(name, SIZE)) + 1.5 for _, name, _ in rows)])
     # long names of links need more room, in the circle diagram and in the list: of each line, and the × at its end
     longest = max(runs_width(plain(name, KNOT, bold=True)) for name in centres.names)
-    lines = [runs_width(runs) + 3.0 for *_, how in found for runs in wrapped(how, SIZE, 0.0)]
+    lines = [runs_width(runs) + 3.0 for *_, how in rows for runs in wrapped(how, SIZE, 0.0)]
     width = max(SIDE, 2 * (radius + OUTSIDE + longest), 7.0 + wide + max(lines, default=0.0))
     circle = panel(width, 2 * radius + 18.0, lambda room: Piece(
         {"centres": (circle_diagram(centres, room.centre, radius),)}))
@@ -401,7 +400,7 @@ def _side(page: FigurePage, centres: Centres) -> Block:
     order = (
         row(numeral(number, 7.0, classes=LEGEND), prose((name,), wide, classes=LEGEND),
             prose((how,), width - 7.0 - wide, classes=LEGEND))
-        for number, name, how in found
+        for number, name, how in rows
     )
     return column(title, circle, column(*_legend(page, centres), gap=0.8), column(*order), gap=1.5)
 
@@ -430,21 +429,21 @@ def _report(page: FigurePage, centres: Centres, velocities: Sequence[Phrase]) ->
     """The centres that Kennedy's theorem does not give, with the reason, and the velocities by centres: their formulas
     once, with the further languages in brief."""
     lines: list[Words] = []
-    told: list[Words] = []
+    formulas: list[Words] = []
     every = languages(page.language)
     for each in every:
         for centre in centres.indeterminate:
             by = Phrase(f"centre {centre.way}", centre=centre.pair, kept=listed(centres.kept)) if centre.way else None
-            sentences = [_rich(one, each, page.letters) for one in (centre.why, by) if one is not None]
+            sentences = [_rich(phrase, each, page.letters) for phrase in (centre.why, by) if phrase is not None]
             lines.append(spaced(word("sentence joint", each), sentences))
     for phrase in velocities:
         sentences = [_rich(phrase, each, page.letters) for each in every]
         brief = [word(f"{phrase.key} briefly", each, "") for each in every[1:]]
-        told += (spaced(" ", (sentences[0], *brief)),) if brief and all(brief) else dict.fromkeys(sentences)
+        formulas += (spaced(" ", (sentences[0], *brief)),) if brief and all(brief) else dict.fromkeys(sentences)
     head = [page.term("velocities by centres")] if velocities else []
     wide = page.width
     return column(prose(lines, wide, 3.0, classes=TOLD), prose(head, wide, 3.2, bold=True, classes=TOLD),
-                  prose(told, wide, 3.0, classes=TOLD))
+                  prose(formulas, wide, 3.0, classes=TOLD))
 
 
 def _rich(phrase: Phrase, language: str, letters: Notation) -> RichText:
@@ -503,7 +502,7 @@ def named_centres(piece: Piece, panel: Box, centres: Centres) -> Piece:
 def _overlapping(named: Piece) -> set[str]:
     """The names that stand on others, or have leaders through joints."""
     written = named.layers["labels"]
-    texts = {thing.id: text_box(thing) for thing in written if isinstance(thing, Text)}
+    texts = {part.id: text_box(part) for part in written if isinstance(part, Text)}
     joints = obstacles_of(without(named, texts).drawn).areas
     ids = {id for pair in combinations(texts, 2) if texts[pair[0]].overlaps(texts[pair[1]]) for id in pair}
     return ids | {
@@ -522,10 +521,10 @@ def _found(label: Label, centres: Centres) -> bool:
 
 def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
     """The found centres within a figure whose lines have no names on it."""
-    things = walk(drawn)
-    ids = {thing.id for thing in things if isinstance(thing, Text)}
-    near = {thing.id for thing in things if isinstance(thing, Group) and "centre" in thing.classes
-            and "far" not in thing.classes}
+    parts = walk(drawn)
+    ids = {part.id for part in parts if isinstance(part, Text)}
+    near = {part.id for part in parts if isinstance(part, Group) and "centre" in part.classes
+            and "far" not in part.classes}
     return tuple(c for c in centres.found if c.lines and id_of(c.pair) in near
                  and f"label-lines-{id_of(c.pair)}" not in ids)
 

@@ -62,8 +62,8 @@ def centres_in_motion(
             content = content.joined(Box.around(np.conj(good).tolist()).grown(3.0))
     fixed = {f"point-{name}" for name in sheet.scene.holders if name not in points}
     gone = fixed - {f"point-{name}" for name in sheet.scene.frame.points}  # what stands for a cam at one position
-    bodies = [thing for thing in back.layers["mechanism"] if getattr(thing, "id", "") not in gone]
-    links = [_moving(thing, origins, turned, points) for thing in bodies]
+    bodies = [body for body in back.layers["mechanism"] if getattr(body, "id", "") not in gone]
+    links = [_moving(body, origins, turned, points) for body in bodies]
     drawn = [_path(pair, path, colour_of_link(sheet.scene, pair[0])) for pair, path in shown.items() if _moves(path)]
     for k, (pair, path) in enumerate(shown.items()):
         drawn += _centre(centres, pair, path, letters.centre(pair), k)
@@ -94,17 +94,17 @@ def _travel(path: Places, base: complex, turned: NDArray[np.float64] | None = No
 
 
 def _moving(
-    thing: Primitive, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
+    body: Primitive, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
     points: Mapping[str, Places],
 ) -> Primitive:
-    if not isinstance(thing, Group):
-        return thing
-    kind, _, name = thing.id.partition("-")
+    if not isinstance(body, Group):
+        return body
+    kind, _, name = body.id.partition("-")
     if kind in ("link", "cam", "follower") and name in origins:
         path = origins[name]
-        return thing._replace(motion=_travel(path, path[0], turned[name], on_page(complex(path[0]))))
+        return body._replace(motion=_travel(path, path[0], turned[name], on_page(complex(path[0]))))
     moves = kind == "point" and name in points
-    return thing._replace(motion=_travel(points[name], points[name][0])) if moves else thing
+    return body._replace(motion=_travel(points[name], points[name][0])) if moves else body
 
 
 def _moves(path: Places) -> bool:

@@ -74,11 +74,11 @@ def diagram_figure(diagram: DiagramName, page: FigurePage) -> Drawing | None:
 
     account = Account(sheet, letters)
     notes = [account.sentence(note, each) for each in languages(spoken) for note in remarks(sheet)]
-    told = prose(notes, page.width, 2.5, classes=("remark",))
+    words = prose(notes, page.width, 2.5, classes=("remark",))
     title = FIGURE_WORDS[diagram]
     unit = dimensions_in(sheet, spoken) if diagram == "mechanism" else ""
     return page.drawing(
-        page.at_drivers(page.term(title)), column(told, page.panel(content.height + 2 * ROOM + strip, drawn), gap=GAP),
+        page.at_drivers(page.term(title)), column(words, page.panel(content.height + 2 * ROOM + strip, drawn), gap=GAP),
         spaced(",  ", filter(None, (page.scale(diagram), unit))), title=title, said=describe(sheet, (diagram,), spoken),
         note="" if diagram == "mechanism" else term("step number", page.language, number="(9)"),
     )
@@ -160,7 +160,7 @@ def polygons_beside(page: FigurePage, sheets: Sequence[tuple[str, Sheet]]) -> Dr
     drawn = [(name, sheet.at(scales)) for name, sheet in sheets]
     shown = DIAGRAMS[1:] if any(sheet.vectors["acceleration"] for _, sheet in sheets) else DIAGRAMS[1:2]
     pages = [_page(page, drawn[k : k + columns], shown, (wide, tall)) for k in range(0, len(drawn), columns)]
-    further = (replace(one, title=f"{one.title} ({number})") for number, one in enumerate(pages[1:], 2))
+    further = (replace(drawing, title=f"{drawing.title} ({number})") for number, drawing in enumerate(pages[1:], 2))
     return replace(pages[0], further=tuple(further))
 
 
@@ -193,12 +193,12 @@ def _position(
     said = term("position named", page.language, position=name)
     named = sheet.scene.question.positions is not None and name in sheet.scene.question.positions.names
     head = (said + page.punctuation("colon")) * named + drivers(sheet, letters)
-    found = [
+    readings = [
         letters.vector(r.symbol) + f" = {printed(measured(r, units))} {r.symbol.unit(units).written}"
         for r in read_off(sheet, [s for s in sheet.scene.question.find if s.scope == "motion" and not s.at])
     ] if sheet.scene.question.find else []
     panels = (framed(panel(*size, partial(polygon, diagram))) for diagram in shown)
-    return column(line(head, size[0], 3.2), column(*panels, prose((spaced(";  ", found),), size[0]), gap=GUTTER))
+    return column(line(head, size[0], 3.2), column(*panels, prose((spaced(";  ", readings),), size[0]), gap=GUTTER))
 
 
 def _plain(name: str) -> str:

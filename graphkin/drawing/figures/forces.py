@@ -96,11 +96,11 @@ def forces_figure(page: FigurePage, report: Report) -> Drawing:
 def _given(page: FigurePage) -> Block:
     """Masses and loads, inertia forces, springs."""
     account = Account(page.sheet, page.letters)
-    inertia = [line for told in told_of(account, page.sheet.inertias.values()) for line in told.sums]
+    inertia = [line for statement in told_of(account, page.sheet.inertias.values()) for line in statement.sums]
     return column(
         page.prose((page.term("given"),), bold=True), page.prose(given_loads(page.sheet, page.letters)),
         page.prose((Phrase("force inertia"),) * bool(inertia), bold=True), page.prose(inertia),
-        page.prose(told.said for told in told_of(account, page.sheet.springs)),
+        page.prose(statement.said for statement in told_of(account, page.sheet.springs)),
     )
 
 
@@ -506,8 +506,8 @@ def _lever(page: FigurePage, lever: Lever, tag: str) -> Iterator[Block]:
     ]
     rows = [(_named(row, page.letters), *map(printed, written)) for row, *written in lever_sum(page.sheet, lever)[0]]
     yield table(heads, rows, COLUMNS)
-    *_, told = told_of(Account(page.sheet, page.letters), lever.steps, lever=lever)
-    yield column(page.prose((told.said,)), page.prose(told.sums, bold=True))
+    *_, statement = told_of(Account(page.sheet, page.letters), lever.steps, lever=lever)
+    yield column(page.prose((statement.said,)), page.prose(statement.sums, bold=True))
 
 
 def _drawn_lever(page: FigurePage, lever: Lever, per_mm: float, tag: str) -> Piece:

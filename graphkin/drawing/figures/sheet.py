@@ -210,7 +210,7 @@ def _polygon(page: FigurePage, diagram: DiagramName, panel: Box) -> tuple[Piece,
 def _insets(pieces: Sequence[object]) -> list[str]:
     """The insets in polygons."""
     drawn = (piece.drawn for piece in pieces if isinstance(piece, Piece))
-    return [thing.id for each in drawn for thing in walk(each) if isinstance(thing, Group) and "inset" in thing.classes]
+    return [part.id for each in drawn for part in walk(each) if isinstance(part, Group) and "inset" in part.classes]
 
 
 @dataclass(frozen=True, eq=False)
@@ -402,15 +402,15 @@ def title_block(page: FigurePage, shown: Sequence[Compared], box: Box) -> Piece:
     """The block of a sheet: title, instrument, scales, and whether the ``shown`` readings agree."""
     sheet, language = page.sheet, page.language
     lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
-    two = min(box.left + 0.66 * box.width, box.right - BAR_ROOM)
+    right = min(box.left + 0.66 * box.width, box.right - BAR_ROOM)
     names = titles(sheet, language)
     left = box.left + 2.0
     for share in (0.36, 0.48):  # more for a long title
-        one = min(box.left + share * box.width, two - SCALES_ROOM)
-        title = _title_lines(names, one - left - 1.5)
+        middle = min(box.left + share * box.width, right - SCALES_ROOM)
+        title = _title_lines(names, middle - left - 1.5)
         if title[0][0].size >= LEGIBLE_TITLE:
             break
-    lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (one, two)]
+    lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (middle, right)]
     words: list[Primitive] = []
     y = box.top + 1.4
     for runs in title:
@@ -418,12 +418,12 @@ def title_block(page: FigurePage, shown: Sequence[Compared], box: Box) -> Piece:
         words.append(Text(complex(left, y), runs))
     tools = page.term("instrument") + page.punctuation("colon") + page.term(f"instrument {sheet.instrument}")
     second = sheet.scene.name + page.punctuation("list comma") + tools
-    words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
+    words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, middle - left - 1.5)))
     for i, diagram in enumerate(("mechanism", *POLYGONS)):
-        text = fitted(page.scale(diagram), 3.0, two - one - 4.0)
-        words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), text))
-    told = fitted(term("check bar", page.language, length="50 mm"), 2.4, 50.0)
-    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), told)
+        text = fitted(page.scale(diagram), 3.0, right - middle - 4.0)
+        words.append(Text(complex(middle + 2.0, box.top + 4.6 + 4.4 * i), text))
+    label = fitted(term("check bar", page.language, length="50 mm"), 2.4, 50.0)
+    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), label)
     answers: tuple[Primitive, ...] = ()
     if shown:
         judged = [row.ok for row in shown if row.ok is not None]
@@ -431,7 +431,7 @@ def title_block(page: FigurePage, shown: Sequence[Compared], box: Box) -> Piece:
         agree = Phrase(about("all agree", judged), readings=whole)
         phrase = Phrase("not all agree", wrong=wrong, readings=whole) if wrong else agree
         answers = tuple(
-            Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))
+            Text(complex(right + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - right - 4.0))
             for i, each in enumerate(languages(language))
         )
     return Piece(

@@ -49,9 +49,9 @@ def structure_figure(page: FigurePage, others: Sequence[Structure] = ()) -> Draw
     sheet = page.sheet
     counted = _counted(sheet.structure, page.language)
     diagram = panel(*DIAGRAM, lambda room: _diagram(sheet, page.letters, page.language, room))
-    told = [prose((text,), page.width - DIAGRAM[0] - BESIDE, SIZE, bold=bold) for text, bold in counted]
+    lines = [prose((text,), page.width - DIAGRAM[0] - BESIDE, SIZE, bold=bold) for text, bold in counted]
     groups = (_taken_apart(page, structure) for structure in (sheet.structure, *others))
-    body = column(row(diagram, column(*told), gap=BESIDE), *groups, gap=4.0)
+    body = column(row(diagram, column(*lines), gap=BESIDE), *groups, gap=4.0)
     return page.drawing(
         page.term("structure"), body, None, title="structure",
         said=spaced(". ", (text for text, _ in counted)),
@@ -233,8 +233,8 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element], id: str) -
             foot = at + dot(origin - at, along) * along
             far = max(ends, key=lambda z: abs(z - foot))
             dashed = strokes.REDUNDANT.coloured(here.colour(slide.b))
-            ways = (origin, foot), (foot, far)
-            parts += [Line.between(a, b, dashed) for a, b in ways if abs(b - a) > TOUCH]
+            spans = (origin, foot), (foot, far)
+            parts += [Line.between(a, b, dashed) for a, b in spans if abs(b - a) > TOUCH]
         if slide.a in links and slide.a in here.scene.by_name and slide.a not in numbered:
             numbered.add(slide.a)
             labels.append(Label.of(plain(slide.a, bold=True), on_page(at), colour=colour, rank=1))

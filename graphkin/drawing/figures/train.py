@@ -73,8 +73,8 @@ def _page(page: FigurePage, plan: TrainPlan, steps: Steps) -> Drawing:
         moved_piece(rates, complex(PLAN + 4.0 - least - TABLE - 4.0, 7.0)), room))
     lines = [_train(page, plan, k, steps) for k in range(len(plan.on))]
     last = max(steps.values())  # until then the table tells what is to be found
-    told = {layer: (Group(things, step=last),) for layer, things in read.piece.layers.items()}
-    body = column(page.prose(why), *lines, row(replace(read, piece=Piece(told)), scale, gap=4.0), gap=GAP)
+    layers = {layer: (Group(things, step=last),) for layer, things in read.piece.layers.items()}
+    body = column(page.prose(why), *lines, row(replace(read, piece=Piece(layers)), scale, gap=4.0), gap=GAP)
     size, speed = plan.length / sheet.scene.units.metres, plan.speed / sheet.scene.units.rates.metres
     scales = {"length": size, plan.order: speed, plan.rate: plan.turning}
     unit = _unit(plan)

@@ -239,26 +239,26 @@ class Page:
 
 def walk(children: Iterable[Primitive]) -> list[Primitive]:
     """All primitives in the order of drawing, groups before their children."""
-    found: list[Primitive] = []
+    primitives: list[Primitive] = []
     for child in children:
-        found.append(child)
+        primitives.append(child)
         if isinstance(child, Group):
-            found += walk(child.children)
-    return found
+            primitives += walk(child.children)
+    return primitives
 
 
 def map_tree(
     children: Iterable[Primitive], change: Callable[[Primitive], Primitive | None]
 ) -> tuple[Primitive, ...]:
     """The primitives, each changed, or left out where ``change`` gives None; groups after their children."""
-    found: list[Primitive] = []
-    for thing in children:
-        if isinstance(thing, Group):
-            thing = thing._replace(children=map_tree(thing.children, change))
-        changed = change(thing)
+    primitives: list[Primitive] = []
+    for child in children:
+        if isinstance(child, Group):
+            child = child._replace(children=map_tree(child.children, change))
+        changed = change(child)
         if changed is not None:
-            found.append(changed)
-    return tuple(found)
+            primitives.append(changed)
+    return tuple(primitives)
 
 
 def moved(children: Iterable[Primitive], by: complex) -> tuple[Primitive, ...]:

@@ -74,15 +74,15 @@ def tint(colour: str, strength: float = 0.14) -> str:
 def pale(children: Iterable[Primitive], strength: float = 0.45, words: float = 1.0) -> tuple[Primitive, ...]:
     """The primitives in colours thinned to a strength, texts to the strength ``words``."""
 
-    def thinned(thing: Primitive) -> Primitive:
-        if isinstance(thing, Group | Scan):
-            return thing
-        if isinstance(thing, Text):
-            return thing if words == 1.0 else thing._replace(colour=tint(thing.colour, words))
-        if isinstance(thing, Polygon | Circle):
-            stroke = thing.stroke and thing.stroke.coloured(tint(thing.stroke.colour, strength))
-            return thing._replace(fill=thing.fill and tint(thing.fill, strength), stroke=stroke)
-        return thing._replace(stroke=thing.stroke.coloured(tint(thing.stroke.colour, strength)))
+    def thinned(part: Primitive) -> Primitive:
+        if isinstance(part, Group | Scan):
+            return part
+        if isinstance(part, Text):
+            return part if words == 1.0 else part._replace(colour=tint(part.colour, words))
+        if isinstance(part, Polygon | Circle):
+            stroke = part.stroke and part.stroke.coloured(tint(part.stroke.colour, strength))
+            return part._replace(fill=part.fill and tint(part.fill, strength), stroke=stroke)
+        return part._replace(stroke=part.stroke.coloured(tint(part.stroke.colour, strength)))
 
     return map_tree(children, thinned)
 

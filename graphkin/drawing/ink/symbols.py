@@ -223,11 +223,11 @@ def cylinder(pivot: complex, rod_end: complex, colour: str) -> tuple[Shape, ...]
 
 def spring(start: complex, end: complex) -> tuple[Shape, ...]:
     """A helical spring between two points as a zigzag with straight ends (ISO 2162-1, simplified)."""
-    way = end - start
-    length = abs(way)
+    axis = end - start
+    length = abs(axis)
     if length < 1e-9:
         return ()
-    along, lead = way / length, min(6.0, 0.2 * length)
+    along, lead = axis / length, min(6.0, 0.2 * length)
     turns = max(3, min(10, round((length - 2 * lead) / 4.0)))
     step, half = (length - 2 * lead) / (2 * turns), min(SPRING_WIDTH, 0.3 * length) / 2
     tops = [lead + step * (k + 0.5) + (half if k % 2 else -half) * 1j for k in range(2 * turns)]
@@ -256,8 +256,8 @@ def hull(points: tuple[complex, ...]) -> tuple[complex, ...]:
         half: list[complex] = []
         for point in chain:
             while len(half) > 1:
-                edge, way = half[-1] - half[-2], point - half[-2]
-                if cross(edge, way) > 1e-6 * max(abs(edge), abs(way)) ** 2:  # a millionth of the square is straight
+                edge, chord = half[-1] - half[-2], point - half[-2]
+                if cross(edge, chord) > 1e-6 * max(abs(edge), abs(chord)) ** 2:  # a millionth of the square is straight
                     break
                 half.pop()
             half.append(point)

@@ -87,8 +87,8 @@ def polygon_with_insets(
     shown = terms[: len(boxes)]
     boxes += _boxes(panel, plain, None, len(shown) + len(small) - len(boxes), SMALL_INSET, boxes)
     enlarged = small[: len(boxes) - len(shown)]
-    own = polygon_piece(here, enlarged, lines) if enlarged else plain
-    figure, pieces, crowd = _with_details(here, enlarged, own, boxes[len(shown) :], boxes)
+    drawn = polygon_piece(here, enlarged, lines) if enlarged else plain
+    figure, pieces, crowd = _with_details(here, enlarged, drawn, boxes[len(shown) :], boxes)
     crowded = polygon.crowds(here, enlarged, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
     for size in (INSET, SMALL_INSET) if crowded else ():
         more = boxes + _boxes(panel, plain, strip, len(crowded), size, boxes)
@@ -98,10 +98,10 @@ def polygon_with_insets(
             if len(clearer[2]) < len(crowd):
                 enlarged, boxes, (figure, pieces, _) = there, more, clearer
             break
-    pieces = [*(coriolis_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
+    pieces = [*(coriolis_inset(sheet, term, letters, box) for term, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
-    keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
-    names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
+    keyed = {label.step for label in figure.layers["labels"] if isinstance(label, Text) and label.step is not None}
+    names = {label.id: text_box(label) for label in figure.layers["labels"] if isinstance(label, Text)}
     arrows = [(step, here.drawn(vector), names.get(f"label-{vector.symbol.id}")) for step, vector in here.in_order]
     numbers = Piece({"labels": step_numbers(arrows, keyed, panel, around)})
     numerals = polygon.ring_numerals(polygon.rings(here, enlarged), around + obstacles_of(numbers.drawn), panel)
@@ -113,35 +113,35 @@ def _boxes(
 ) -> list[Box]:
     """Up to ``count`` boxes for insets besides the taken ones, in free places of a strip first; clear of the strokes on
     the panel."""
-    found: list[Box] = []
+    free: list[Box] = []
     if count < 1:
-        return found
+        return free
     if strip is not None:
         many = per_row(strip.width) * int((strip.height + ROUNDING) // (INSET[1] + GUTTER))
-        found = inset_boxes(strip, many)[len(taken) : len(taken) + count]
-    if count > len(found):
-        around = obstacles_of(drawn.drawn) + Obstacles(areas=(*taken, *found))
-        found += free_boxes(count - len(found), size, panel, around)
-    return found
+        free = inset_boxes(strip, many)[len(taken) : len(taken) + count]
+    if count > len(free):
+        around = obstacles_of(drawn.drawn) + Obstacles(areas=(*taken, *free))
+        free += free_boxes(count - len(free), size, panel, around)
+    return free
 
 
 def _with_details(
-    here: PolygonOnPage, enlarged: Sequence[Detail], own: Piece, boxes: Sequence[Box], fences: Sequence[Box]
+    here: PolygonOnPage, enlarged: Sequence[Detail], drawn: Piece, boxes: Sequence[Box], fences: Sequence[Box]
 ) -> tuple[Piece, list[Piece], tuple[Label, ...]]:
-    """A polygon, ``own`` as drawn, with its names, the insets of its enlarged parts, each in its box, and the badly
+    """A polygon as ``drawn``, with its names, the insets of its enlarged parts, each in its box, and the badly
     placed names."""
     pieces = []
     shown: set[str] = set()
     repeated: set[str] = set()  # with the letters that stand at other vectors too
     for number, (detail, box) in enumerate(zip(enlarged, boxes, strict=False), 1):
         middle, reach = here.at(detail.centre), detail.radius + 0.6
-        points = [name for name in own.labels if isinstance(name.mark, complex) and abs(name.mark - middle) <= reach]
+        points = [name for name in drawn.labels if isinstance(name.mark, complex) and abs(name.mark - middle) <= reach]
         inset, letters = _detail_inset(here, detail, box, number, points)
         pieces.append(inset)
         repeated |= letters
         shown |= {id for id in letters if detail.crowd is not None or id.startswith("label-foot-")}
-    own = replace(own, labels=tuple(label for label in own.labels if label.text.id not in shown))
-    figure, crowd = with_crowd(own, here.panel, fences)
+    drawn = replace(drawn, labels=tuple(label for label in drawn.labels if label.text.id not in shown))
+    figure, crowd = with_crowd(drawn, here.panel, fences)
     repeated &= {label.text.id for label in crowd}
     return without(figure, repeated), pieces, tuple(label for label in crowd if label.text.id not in repeated)
 
@@ -165,7 +165,7 @@ def _detail_inset(
 
     parts: list[Primitive] = []
     names: dict[str, Label] = {}  # by the id of the name on the polygon
-    own = {v.symbol for v in detail.vectors}
+    shown = {v.symbol for v in detail.vectors}
     shifts = polygon.side_by_side(v.scaled(detail.factor) for v in detail.vectors)
     for _, vector in here.in_order:
         kind = RESULTANT if vector.role == "resultant" else COMPONENT
@@ -173,7 +173,7 @@ def _detail_inset(
         shift = on_page(shifts.get(vector.symbol, 0j))
         tail, tip = at(vector.tail) + shift, at(vector.tip) + shift
         clipped = inner.clip(tail, tip)
-        if vector.symbol in own and clipped is not None:
+        if vector.symbol in shown and clipped is not None:
             parts += arrow(clipped[0], tip, kind, colour)
             names[f"label-{vector.symbol.id}"] = Label.of(
                 rich(letters.arrow(vector.symbol), 2.8), clipped, f"label-detail-{vector.symbol.id}", colour=colour,
@@ -249,8 +249,8 @@ def mechanism_with_inset(
     boxes = free_boxes(1, SIZE, panel, obstacles_of(named.drawn)) if near is not None else []
     if near is None or not boxes:
         return joined((under, named))
-    one, two = (sheet.points[ref] for ref in near)
-    circle = Circle(origin + on_page(one + two) / 2, abs(one - two) / 2 + RING_ABOUT, stroke=strokes.CONSTRUCTION)
+    start, end = (sheet.points[ref] for ref in near)
+    circle = Circle(origin + on_page(start + end) / 2, abs(start - end) / 2 + RING_ABOUT, stroke=strokes.CONSTRUCTION)
     ring = Group((circle,), id="ring-mechanism", classes=("ring",))
     # the names anew: they keep off the ring and the inset
     named = with_crowd(joined((whole, Piece({"labels": (ring,)}))), panel, boxes)[0]
@@ -262,24 +262,24 @@ def _mechanism_detail(
     sheet: Sheet, letters: Notation, language: str, near: tuple[PointRef, PointRef], box: Box
 ) -> Piece:
     """The inset for two near points in a box of the page."""
-    one, two = (sheet.points[ref] for ref in near)
-    factor = next((f for f in FACTORS if f * abs(one - two) >= APART), FACTORS[-1])
-    middle = (one + two) / 2
+    start, end = (sheet.points[ref] for ref in near)
+    factor = next((f for f in FACTORS if f * abs(start - end) >= APART), FACTORS[-1])
+    middle = (start + end) / 2
     inner = _inside(box, CAPTION)
     scales = sheet.scales
     larger = sheet.at(Scales(scales.length / factor, scales.velocity, scales.acceleration))
     shift = inner.centre - on_page(factor * middle)
     bare = moved_piece(bare_mechanism(larger, letters), shift)
     kept = {f"label-point-{ref.point}" for ref in near}
-    names = tuple(one for one in bare.labels if one.text.id in kept and inner.distance(middle_of(one.mark)) == 0.0)
+    names = tuple(name for name in bare.labels if name.text.id in kept and inner.distance(middle_of(name.mark)) == 0.0)
     bodies = map_tree(bare.layers["mechanism"], _without_id)
     named = with_labels(Piece({"mechanism": cut_to(bodies, inner)}, names), inner)
     words = f"{roman(1)}: " + term("detail", language, scale=f"{factor:g}")
     parts, classes = named.layers["mechanism"], ("inset", "detail")
     frame = _inset(box, "mechanism", parts, (words,), polygon.NUMERAL, "detail-mechanism", classes)
     labels = tuple(
-        thing._replace(id=f"label-detail-{thing.id.removeprefix('label-')}", step=None, since=None)
-        if isinstance(thing, Text) else thing for thing in named.layers.get("labels", ())
+        part._replace(id=f"label-detail-{part.id.removeprefix('label-')}", step=None, since=None)
+        if isinstance(part, Text) else part for part in named.layers.get("labels", ())
     )
     return joined((Piece({"labels": labels}), frame))
 
@@ -296,9 +296,9 @@ def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
     return min(close, key=lambda pair: pair[0])[1:] if close else None
 
 
-def _without_id(thing: Primitive) -> Primitive:
+def _without_id(part: Primitive) -> Primitive:
     """The primitive without its id, which the mechanism itself has."""
-    return Group(thing.children, "", thing.classes) if isinstance(thing, Group) else thing
+    return Group(part.children, "", part.classes) if isinstance(part, Group) else part
 
 
 CoriolisTerm: TypeAlias = tuple[Vector, Vector, Size | None]
@@ -312,13 +312,13 @@ def coriolis_terms(sheet: Sheet, diagram: DiagramName = "acceleration") -> list[
     """Each Coriolis vector of a polygon that is not zero, with its sliding velocity and the rule for its size."""
     velocities = {symbol: v for symbol, v in sheet.vectors["velocity"].items() if abs(v.span) > ZERO}
     rules = {t.symbol: t.size for e in sheet.equations for side in e.sides for t in side}
-    found = []
+    terms = []
     for vector in sheet.vectors[diagram].values():
         of, to = vector.symbol.of, vector.symbol.to
         velocity = velocities.get(Symbol("v", of, to), velocities.get(Symbol("v", of)))
         if vector.role == "coriolis" and abs(vector.span) >= ZERO and velocity is not None:
-            found.append((vector, velocity, rules.get(vector.symbol)))
-    return found
+            terms.append((vector, velocity, rules.get(vector.symbol)))
+    return terms
 
 
 def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box) -> Piece:
@@ -329,7 +329,7 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box
     inner = _inside(box, 6.2)
     centre = inner.centre - REACH / 2 * on_page(slip + turned)
     colour = colour_of_vector(sheet, vector.symbol)
-    tips = [centre + REACH * on_page(way) for way in (slip, turned)]
+    tips = [centre + REACH * on_page(direction) for direction in (slip, turned)]
     arc = sense_arc(centre, 3.6, phase(slip) + sense * math.pi / 4, sense, math.radians(72))
     parts = (
         *arrow(centre, tips[0], COMPONENT, strokes.BLACK),
@@ -341,8 +341,8 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Notation, box: Box
     middle = centre + 3.6 * on_page(unit(slip + turned))
     links = "".join(rule.links) if rule and rule.rule == "rate" and rule.rate == "omega" else ""
 
-    def label(kind: str, name: RichText, at: complex, way: complex, rank: int = 0) -> Label:
-        return Label.of(rich(name, 2.8), at, f"label-inset-{kind}{id}", toward=(phase(way),), rank=rank)
+    def label(kind: str, name: RichText, at: complex, direction: complex, rank: int = 0) -> Label:
+        return Label.of(rich(name, 2.8), at, f"label-inset-{kind}{id}", toward=(phase(direction),), rank=rank)
 
     names = [
         label("v-", letters.arrow(velocity.symbol), tips[0], slip),
@@ -363,7 +363,7 @@ def coriolis_rows(
     """Insets of Coriolis terms in rows, ``gap`` mm apart, from the top of a room, and the terms without room there."""
     rows = max(0, int((room.height + ROUNDING + gap) // (INSET[1] + gap)))
     boxes = inset_boxes(room, min(len(terms), rows * per_row(room.width)), gap)
-    drawn = joined(coriolis_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
+    drawn = joined(coriolis_inset(sheet, term, letters, box) for term, box in zip(terms, boxes, strict=False))
     return drawn, terms[len(boxes) :]
 
 

@@ -198,7 +198,7 @@ def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
 def _through(here: MechanismOnPaper, z: complex, held: list[str]) -> list[Primitive]:
     """A bar that continues beyond a joint is drawn through its circle."""
     parts: list[Primitive] = []
-    for shape in (one for one in here.shapes if one.link in held):
+    for shape in (shape for shape in here.shapes if shape.link in held):
         for a, b in shape.bars:
             e = unit(b - a)
             if abs(cross(z - a, e)) < 1e-3 and 2.0 < dot(z - a, e) < abs(b - a) - 2.0:
@@ -336,7 +336,7 @@ def _marks(here: MechanismOnPaper) -> Piece:
 def _with_lengths(
     here: MechanismOnPaper, bare: Piece, panel: Box | None, most: tuple[float, float] | None = None
 ) -> Piece | None:
-    drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in bare.layers[layer]]
+    drawn = [part for layer in ("construction", "mechanism", "answers") for part in bare.layers[layer]]
     lengths = drawn_lengths(here, drawn, panel, most)
     if lengths is None:
         return None
@@ -388,12 +388,12 @@ def rate_arrows(here: MechanismOnPaper) -> Piece:
                 if value:
                     arc("mechanism", f"driver-{link}{tail}", kind, link, driver.relative_to, value, here.since(link))
     drawn = [step for step in here.sheet.steps if step.finds_rate or step.reason == "given on plan"]
-    found = {(step.kind, step.link): step.number for step in drawn}
+    numbers = {(step.kind, step.link): step.number for step in drawn}
     named = here.scene.whole.by_name  # not of bars that stand for cams
     for kind, rates in here.sheet.rates.items():
         for link, turning in rates.items():
             if turning.is_own and link in named and abs(turning.value) >= 1e-12:
-                arc("answers", f"{kind}-{link}", kind, link, here.ground, turning.value, found.get((kind, link)))
+                arc("answers", f"{kind}-{link}", kind, link, here.ground, turning.value, numbers.get((kind, link)))
     return joined(pieces)
 
 
@@ -401,9 +401,9 @@ def _slide_arrow(here: MechanismOnPaper, driver: Driver) -> Piece:
     b = next((b for b in here.sliders if b.slide.key == driver.key), None)
     if b is None or not driver.rate:
         return Piece()
-    way = b.along * (1 if driver.rate > 0 else -1)
+    along = b.along * (1 if driver.rate > 0 else -1)
     side = 1j * b.along * 5.2
-    tail, tip = on_page(b.at + side - 5 * way), on_page(b.at + side + 5 * way)
+    tail, tip = on_page(b.at + side - 5 * along), on_page(b.at + side + 5 * along)
     colour, id = here.colour(b.slide.a), f"driver-{driver.key.replace('/', '-')}"
     head = arrowhead(tip, tip - tail, POINTER.head_length, 1.0, colour)
     line = Line(tail, tip, Stroke(0.25, (), colour), covered=1.6)
@@ -420,7 +420,7 @@ def _centres_of_turn(here: MechanismOnPaper, link: str, other: str) -> list[comp
     for point in here.scene.by_name[link].points:
         if point in theirs and point in here.places:
             return [here.places[point]]
-    shape = next((one for one in here.shapes if one.link == link), None)
+    shape = next((shape for shape in here.shapes if shape.link == link), None)
     if shape is None or shape.longest is None:
         return [here.sheet.poses[link].origin]
     if shape.corners:
@@ -432,16 +432,16 @@ def _centres_of_turn(here: MechanismOnPaper, link: str, other: str) -> list[comp
 def _springs(here: MechanismOnPaper) -> Piece:
     """All springs between their points, with their names."""
     drawn, names = [], []
-    for one in here.scene.loading.springs:
-        if not {*one.links} <= {*here.sheet.poses}:
+    for spring in here.scene.loading.springs:
+        if not {*spring.links} <= {*here.sheet.poses}:
             continue
-        poses = [(here.sheet.poses[link], at / here.sheet.scales.length) for link, at in one.ends]
+        poses = [(here.sheet.poses[link], at / here.sheet.scales.length) for link, at in spring.ends]
         a, b = (pose.place(at) for pose, at in poses)
-        since = max((number for number in map(here.since, one.links) if number), default=None)
-        shape = symbols.PULLING[one.kind](on_page(a), on_page(b))
-        drawn.append(Group(shape, id=f"{one.kind}-{one.name}", classes=(one.kind,), since=since))
-        names.append(Label.of(plain(one.name), (on_page(a), on_page(b)), f"label-{one.kind}-{one.name}", rank=1,
-                              since=since))
+        since = max((number for number in map(here.since, spring.links) if number), default=None)
+        shape = symbols.PULLING[spring.kind](on_page(a), on_page(b))
+        drawn.append(Group(shape, id=f"{spring.kind}-{spring.name}", classes=(spring.kind,), since=since))
+        names.append(Label.of(plain(spring.name), (on_page(a), on_page(b)), f"label-{spring.kind}-{spring.name}",
+                              rank=1, since=since))
     return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()
 
 
@@ -467,7 +467,7 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
         half = min(COMPASS / arc.radius, math.pi * 0.9)
         there = bars[same_place(arc.at)]
         shown = [not _along_a_bar(arc, side, there) for side in (-1, 1)]
-        first, last = (half * (one or not any(shown)) for one in shown)
+        first, last = (half * (visible or not any(shown)) for visible in shown)
         shape = Arc(on_page(arc.centre), arc.radius, middle - first, middle + last, strokes.CONSTRUCTION)
         covered = any(abs(block.at - arc.at) < SAME for block in here.sliders)
         (over if covered else under).append(Group((shape,), classes=("compass",), step=step.number))
@@ -476,8 +476,8 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
 
 def _along_a_bar(arc: CompassArc, side: int, bars: set[complex]) -> bool:
     """Whether an arc to a side (1 counter-clockwise) begins nearly along a bar that meets it."""
-    way = side * 1j * unit(arc.at - arc.centre)
-    return any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars)
+    tangent = side * 1j * unit(arc.at - arc.centre)
+    return any(dot(tangent, bar) > 0.0 and abs(cross(tangent, bar)) < SPLINTER for bar in bars)
 
 
 def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
@@ -504,6 +504,6 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
             id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")
             drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
         if step.reason == "positions":
-            ways = [Line.between(goal.a, goal.b, strokes.DIRECTION) for goal in step.each(Bar)]
-            drawn += [Group((way,), classes=("trial",), step=step.number) for way in ways]
+            bars = [Line.between(goal.a, goal.b, strokes.DIRECTION) for goal in step.each(Bar)]
+            drawn += [Group((bar,), classes=("trial",), step=step.number) for bar in bars]
     return Piece({"construction": tuple(drawn), "mechanism": tuple(over)}, tuple(labels))

@@ -113,27 +113,27 @@ class MechanismOnPaper:
     @cached_property
     def found(self) -> Mapping[str, int]:
         """The first step that marks each point of the mechanism."""
-        found: dict[str, int] = {}
+        numbers: dict[str, int] = {}
         for step in self.steps:
             for mark in step.each(Mark):
-                found.setdefault(mark.ref.point, step.number)
-        return found
+                numbers.setdefault(mark.ref.point, step.number)
+        return numbers
 
     @cached_property
     def shapes(self) -> tuple[LinkShape, ...]:
         """The moving links on paper, in the order of the file, without links that were not reached."""
-        slides = tuple(one for one in self.sliders if one.slide.key not in self.replaced_pairs)
-        found = []
+        slides = tuple(slider for slider in self.sliders if slider.slide.key not in self.replaced_pairs)
+        shapes = []
         for link in self.scene.whole.links:
             points = {p: self.places[p] for p in self.scene.own_points(link) if p in self.places}
             if link.redundant and len(points) == len(link.points):
                 corners, bars = _spanned(tuple(points.values()))
-                found.append(LinkShape(link.name, points, corners, bars, redundant=True))
+                shapes.append(LinkShape(link.name, points, corners, bars, redundant=True))
             elif link.name in self.sheet.poses:
                 flat = frozenset(b.slide.key for b in self._faces)
                 tips = tuple(touch.point for touch in self.touching.cams if touch.cam.follower == link.name)
-                found.append(_shape(link.name, points, tips, (*slides, *self._faces), flat))
-        return tuple(found)
+                shapes.append(_shape(link.name, points, tips, (*slides, *self._faces), flat))
+        return tuple(shapes)
 
     @cached_property
     def replaced_pairs(self) -> frozenset[str]:
@@ -145,24 +145,24 @@ class MechanismOnPaper:
         """All sliding pairs whose two links are on paper, with pins in slots."""
         sheet = self.sheet
         driven = {d.key for d in self.scene.drivers if not d.turns}
-        found = []
+        sliders = []
         for slide in sheet.structure.slides:
             if slide.a in sheet.poses and slide.b in sheet.poses and slide.key not in self.scene.replaced_by:
                 along = slide.along(sheet.poses)
                 at = sheet.poses[slide.a].origin + self.touching.clearance(slide.key) * along
-                found.append(Slider(slide, at, along, slide.key in driven))
-        return tuple(found)
+                sliders.append(Slider(slide, at, along, slide.key in driven))
+        return tuple(sliders)
 
     @cached_property
     def _faces(self) -> tuple[Slider, ...]:
         """The flat faces of moving links as sliders: a contact with the direction of the face."""
-        found = []
+        faces = []
         for slide in self.sheet.structure.slides:
             pair = self.scene.replaced_by.get(slide.key)
             at = None if pair is None else self.places.get(pair.name)
             if at is not None and slide.b in self.sheet.poses:
-                found.append(Slider(slide, at, slide.along(self.sheet.poses), False))
-        return tuple(found)
+                faces.append(Slider(slide, at, slide.along(self.sheet.poses), False))
+        return tuple(faces)
 
     @cached_property
     def places(self) -> Mapping[str, complex]:
@@ -172,12 +172,12 @@ class MechanismOnPaper:
     @cached_property
     def cylinders(self) -> frozenset[str]:
         """Driven slides that are drawn as cylinder and rod."""
-        found = []
+        cylinders = []
         for b in self.sliders:
             if b.driven and b.slide.b != self.ground and not b.slide.higher:
                 rod = b.at - self.pivot(b)
-                found += [b.slide.key] if abs(cross(rod, b.along)) < 1e-3 and dot(rod, b.along) > 12.0 else []
-        return frozenset(found)
+                cylinders += [b.slide.key] if abs(cross(rod, b.along)) < 1e-3 and dot(rod, b.along) > 12.0 else []
+        return frozenset(cylinders)
 
     def colour(self, link: str) -> str:
         return colour_of_link(self.scene, link)
@@ -193,10 +193,10 @@ class MechanismOnPaper:
         return {point: self._foot(self.places[point]) for point in self.scene.frame.points if self.moving(point)}
 
     def _foot(self, here: complex) -> float:
-        ways = [phase(w) for w in self.ways(here)]
+        bars = [phase(w) for w in self.ways(here)]
 
         def cost(angle: float) -> float:
-            nearest = min((abs(math.remainder(angle - way, math.tau)) for way in ways), default=math.pi)
+            nearest = min((abs(math.remainder(angle - bar, math.tau)) for bar in bars), default=math.pi)
             end = here + (symbols.FOOT_HEIGHT + 1.0) * rect(1.0, angle)
             covered = sum(_inside(end, shape.corners) for shape in self.shapes)
             return FOOT[angle] + max(0.0, 0.9 - nearest) * 3 + 0.9 * covered
@@ -205,7 +205,7 @@ class MechanismOnPaper:
 
     def ways(self, here: complex) -> list[complex]:
         """Directions in which bars leave a place."""
-        ways = []
+        directions = []
         for shape in self.shapes:
             for a, b in shape.segments:
                 length = abs(b - a)
@@ -213,10 +213,10 @@ class MechanismOnPaper:
                     continue
                 t = dot(here - a, b - a) / length
                 if -1.0 <= t < length - 2.0:
-                    ways.append(b - a)
+                    directions.append(b - a)
                 if 2.0 < t <= length + 1.0:
-                    ways.append(a - b)
-        return ways
+                    directions.append(a - b)
+        return directions
 
     def nested(self, link: str) -> int:
         """The number of larger blocks around the block of a link: two that slide at one pin lie in each other."""

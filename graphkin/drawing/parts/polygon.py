@@ -118,8 +118,8 @@ class PolygonOnPage:
     @cached_property
     def shifts(self) -> Mapping[Symbol, complex]:
         """The shifts (mm on the page) of vectors that would cover others."""
-        found = side_by_side(vector for _, vector in self.vectors.values())
-        return {symbol: on_page(shift) for symbol, shift in found.items()}
+        shifts = side_by_side(vector for _, vector in self.vectors.values())
+        return {symbol: on_page(shift) for symbol, shift in shifts.items()}
 
     def drawn(self, vector: Vector) -> Segment:
         """The place of a vector on the page."""
@@ -175,8 +175,8 @@ class Detail:
 def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
     """The places of a polygon that need a larger drawing."""
     small = [v for v in sheet.vectors[diagram].values() if LEAST_DRAWN <= abs(v.span) < SMALL]
-    found = [detail for group in _together(small, _ends_of) for detail in _at_their_scales(group)]
-    return sorted(found, key=lambda d: (d.factor, -len(d.vectors), d.centre.real, d.centre.imag))
+    places = [detail for group in _together(small, _ends_of) for detail in _at_their_scales(group)]
+    return sorted(places, key=lambda d: (d.factor, -len(d.vectors), d.centre.real, d.centre.imag))
 
 
 def crowds(here: PolygonOnPage, enlarged: Sequence[Detail], crowded: Iterable[Label]) -> list[Detail]:
@@ -190,8 +190,8 @@ def crowds(here: PolygonOnPage, enlarged: Sequence[Detail], crowded: Iterable[La
             spots.append((vector.tip, vector))
         elif isinstance(label.mark, complex):
             spots.append((on_page(label.mark - here.origin), None))
-    told = (spot for spot in spots if all(abs(spot[0] - known.centre) > known.radius for known in enlarged))
-    return [_crowd(here, group) for group in _together(told, lambda spot: spot[:1])]
+    fresh = (spot for spot in spots if all(abs(spot[0] - known.centre) > known.radius for known in enlarged))
+    return [_crowd(here, group) for group in _together(fresh, lambda spot: spot[:1])]
 
 
 def _crowd(here: PolygonOnPage, group: Sequence[tuple[complex, Vector | None]]) -> Detail:
@@ -206,16 +206,16 @@ def _crowd(here: PolygonOnPage, group: Sequence[tuple[complex, Vector | None]]) 
 _Thing = TypeVar("_Thing")
 
 
-def _together(things: Iterable[_Thing], places: Callable[[_Thing], Sequence[complex]]) -> list[list[_Thing]]:
+def _together(members: Iterable[_Thing], places: Callable[[_Thing], Sequence[complex]]) -> list[list[_Thing]]:
     """Things in groups of neighbours, by the places (mm) of each."""
 
-    def near(one: _Thing, other: _Thing) -> bool:
-        return any(abs(p - q) < TOGETHER for p in places(one) for q in places(other))
+    def near(first: _Thing, second: _Thing) -> bool:
+        return any(abs(p - q) < TOGETHER for p in places(first) for q in places(second))
 
     groups: list[list[_Thing]] = []
-    for thing in things:
-        joining = [group for group in groups if any(near(thing, other) for other in group)]
-        groups = [group for group in groups if group not in joining] + [[thing, *chain.from_iterable(joining)]]
+    for member in members:
+        joining = [group for group in groups if any(near(member, other) for other in group)]
+        groups = [group for group in groups if group not in joining] + [[member, *chain.from_iterable(joining)]]
     return groups
 
 
@@ -253,7 +253,7 @@ def side_by_side(vectors: Iterable[Vector]) -> Mapping[Symbol, complex]:
     The longest resultant on a line stays; equal or opposite vectors lie beside it.
     """
     shown = [(v, length) for v in vectors if (length := abs(v.span)) >= SMALL]
-    shown.sort(key=lambda one: (one[0].role != "resultant", -round(one[1], 6)))
+    shown.sort(key=lambda pair: (pair[0].role != "resultant", -round(pair[1], 6)))
     lanes: list[tuple[Vector, float, int]] = []
     shifts: dict[Symbol, complex] = {}
     for vector, length in shown:
@@ -270,16 +270,16 @@ def side_by_side(vectors: Iterable[Vector]) -> Mapping[Symbol, complex]:
 
 def _way(vector: Vector) -> complex:
     """The direction of the line of a vector, the same for the opposite vector."""
-    way = vector.span / abs(vector.span)
-    return -way if (round(way.real, 6), round(way.imag, 6)) < (0.0, 0.0) else way
+    direction = vector.span / abs(vector.span)
+    return -direction if (round(direction.real, 6), round(direction.imag, 6)) < (0.0, 0.0) else direction
 
 
 def _covers(longer: Vector, length: float, shorter: Vector) -> bool:
     """Whether a vector of a length lies on a part of a shorter one."""
-    way, start, end = longer.span / length, shorter.tail - longer.tail, shorter.tip - longer.tail
-    if abs(cross(way, start)) > ON_ONE_LINE or abs(cross(way, end)) > ON_ONE_LINE:
+    along, start, end = longer.span / length, shorter.tail - longer.tail, shorter.tip - longer.tail
+    if abs(cross(along, start)) > ON_ONE_LINE or abs(cross(along, end)) > ON_ONE_LINE:
         return False
-    low, high = sorted((dot(way, start), dot(way, end)))
+    low, high = sorted((dot(along, start), dot(along, end)))
     return min(high, length) - max(low, 0.0) > OVERLAP
 
 
@@ -467,13 +467,13 @@ def _aid_name(name: RichText, along: Segment, id: str, rank: int, step: int, *cl
 
 def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
     """A ray from its start to beyond its end, and its part without a vector on it."""
-    way = end - ray.through
-    e = way / abs(way) if abs(way) > 1.0 else ray.along
+    reach = end - ray.through
+    e = reach / abs(reach) if abs(reach) > 1.0 else ray.along
     first, last = ray.through, end + BEYOND * e
     free = here.panel.clip(here.at(end), here.at(last))
     if free is None or abs(free[1] - free[0]) < 5.0:
         # no room beyond: the line shows on its other side
-        base = ray.through if abs(way) > 1.0 else end
+        base = ray.through if abs(reach) > 1.0 else end
         behind = here.panel.clip(here.at(base), here.at(base - BEYOND * e))
         if behind is not None:
             free, first, last = behind, base - BEYOND * e, end

@@ -66,9 +66,9 @@ def _ring(centre: complex, radius: float, outside: bool, colour: str) -> Iterato
     count = max(12, round(2 * math.pi * radius / HATCHES))
     away = symbols.HATCH_DEPTH if outside else -symbols.HATCH_DEPTH
     for k in range(count):
-        way = rect(1.0, 2 * math.pi * k / count)
-        foot = centre + radius * way
-        yield Line.between(foot, foot + away * way * complex(1, 0.8), strokes.HATCHING.coloured(colour))
+        spoke = rect(1.0, 2 * math.pi * k / count)
+        foot = centre + radius * spoke
+        yield Line.between(foot, foot + away * spoke * complex(1, 0.8), strokes.HATCHING.coloured(colour))
 
 
 def _wheels(here: MechanismOnPaper, link: str) -> list[Primitive]:
@@ -112,7 +112,7 @@ def within_round_body(here: MechanismOnPaper, link: str) -> complex | None:
     """A place (mm) in the body of a cam, on the way to its farthest point; or of a wheel or disc, on the side away from
     its contacts: inside its circle, outside the circle of an internal wheel; None for a link without any of them."""
     links = here.touching
-    if (cam := next((one for one in links.cams if one.cam.link == link), None)) is not None:
+    if (cam := next((cam for cam in links.cams if cam.cam.link == link), None)) is not None:
         axis = here.sheet.poses[link].origin
         return axis + IN_BODY * (max(cam.profile, key=lambda z: abs(z - axis)) - axis)
     rounds = [(centre, radius) for wheel, centre, radius in links.pitch_circles() if wheel == link]
@@ -140,40 +140,40 @@ def beside_face_of_frame(here: MechanismOnPaper) -> tuple[complex, complex] | No
 
 def profiles(here: MechanismOnPaper) -> Iterator[Group]:
     """Cams with their profiles, the rollers or faces of followers, tangents and normals at their contacts."""
-    for one in here.touching.cams:
-        across = 1j * one.normal
-        yield Group((_cam_alone(here, one),), id=f"cam-{one.cam.link}", classes=("cam",), since=here.stands)
-        end = tuple(_follower_end(here, one))
+    for cam in here.touching.cams:
+        across = 1j * cam.normal
+        yield Group((_cam_alone(here, cam),), id=f"cam-{cam.cam.link}", classes=("cam",), since=here.stands)
+        end = tuple(_follower_end(here, cam))
         if end:
-            yield Group(end, id=f"follower-{one.cam.follower}", classes=("cam",), since=here.stands)
-        far_side = one.contact + one.roller * one.normal
-        thin = ((one.contact - AT_CAM * one.normal, far_side + AT_CAM * one.normal),
-                (one.point - AT_CAM * across, one.point + AT_CAM * across))
-        lines = tuple(Line.between(a, b, strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
-        yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",), since=here.stands)
+            yield Group(end, id=f"follower-{cam.cam.follower}", classes=("cam",), since=here.stands)
+        far_side = cam.contact + cam.roller * cam.normal
+        thin = ((cam.contact - AT_CAM * cam.normal, far_side + AT_CAM * cam.normal),
+                (cam.point - AT_CAM * across, cam.point + AT_CAM * across))
+        lines = tuple(Line.between(a, b, strokes.DIRECTION) for a, b in thin[: 1 if cam.cam.flat else 2])
+        yield Group(lines, id=f"touch-{cam.cam.link}", classes=("touch",), since=here.stands)
 
 
 def cams_alone(here: MechanismOnPaper, names: Collection[str]) -> list[Primitive]:
     """The profiles of cams, then the ends of followers, that are among some links cut free."""
     cams = here.touching.cams
-    parts: list[Primitive] = [_cam_alone(here, one) for one in cams if one.cam.link in names]
-    return parts + [part for one in cams if one.cam.follower in names for part in _follower_end(here, one)]
+    parts: list[Primitive] = [_cam_alone(here, cam) for cam in cams if cam.cam.link in names]
+    return parts + [part for cam in cams if cam.cam.follower in names for part in _follower_end(here, cam)]
 
 
-def _cam_alone(here: MechanismOnPaper, one: CamOnPaper) -> Polygon:
-    colour = here.colour(one.cam.link)
-    return Polygon(tuple(map(on_page, one.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
+def _cam_alone(here: MechanismOnPaper, cam: CamOnPaper) -> Polygon:
+    colour = here.colour(cam.cam.link)
+    return Polygon(tuple(map(on_page, cam.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
 
 
-def _follower_end(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Primitive]:
+def _follower_end(here: MechanismOnPaper, cam: CamOnPaper) -> Iterator[Primitive]:
     """The part of a follower that touches its cam: the roller or the flat face."""
-    stroke, across = strokes.LINK.coloured(here.colour(one.cam.follower)), 1j * one.normal
-    if one.roller:
-        yield Circle(on_page(one.point), one.roller, stroke=stroke)
-    if one.cam.flat:
-        yield Line.between(one.point - FLAT * across, one.point + FLAT * across, stroke)
-        if abs(one.contact - one.point) > FLAT:
-            yield Line.between(one.point, one.contact, stroke)
+    stroke, across = strokes.LINK.coloured(here.colour(cam.cam.follower)), 1j * cam.normal
+    if cam.roller:
+        yield Circle(on_page(cam.point), cam.roller, stroke=stroke)
+    if cam.cam.flat:
+        yield Line.between(cam.point - FLAT * across, cam.point + FLAT * across, stroke)
+        if abs(cam.contact - cam.point) > FLAT:
+            yield Line.between(cam.point, cam.contact, stroke)
 
 
 def _curved(here: MechanismOnPaper) -> Iterator[tuple[CircularSlot, tuple[float, float]]]:
@@ -248,9 +248,9 @@ def _marks(touches: Iterable[Touch], tag: str = "") -> Piece:
         lines = list[Primitive]()
         for letter, along, reach in (("n", normal, NORMAL), ("t", 1j * normal, TANGENT)):
             lines.append(Line.between(at - reach * along, at + reach * along, strokes.AXIS))
-            for k, way in enumerate((-along, along), 1):
+            for k, side in enumerate((-along, along), 1):
                 id = f"label-{letter}-{name}-{k}{tag}"
-                names.append(Label.of(rich(sign(letter), 3.0), on_page(at + reach * way), id, toward=(phase(way),)))
+                names.append(Label.of(rich(sign(letter), 3.0), on_page(at + reach * side), id, toward=(phase(side),)))
         if tag:
             lines.append(Circle(on_page(at), 0.5, fill=strokes.BLACK))
             names.append(Label.of(rich(sign(name), 3.0), on_page(at), rank=1))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from itertools import combinations, pairwise
+from itertools import chain, combinations, pairwise
 from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
@@ -102,10 +102,10 @@ def _centred(runs: tuple[Run, ...], at: complex) -> Text:
     return Text(at + 0.5j * CAP_HEIGHT * size, runs, "middle")
 
 
-def _reach(runs: tuple[Run, ...], way: complex) -> float:
+def _reach(runs: tuple[Run, ...], along: complex) -> float:
     """How far (mm) the box of a text reaches from its middle in a direction."""
     box = text_box(_centred(runs, 0j))
-    return abs(way.real) * box.width / 2 + abs(way.imag) * box.height / 2
+    return abs(along.real) * box.width / 2 + abs(along.imag) * box.height / 2
 
 
 def _head(tip: complex, along: complex) -> Polygon:
@@ -211,11 +211,11 @@ class DimensionClearance:
         of_numbers, numbers = _owned([choice.numbers for choice in choices], boxes_of)
         of_heads, heads = _owned([choice.heads for choice in choices], boxes_of)
         taken = np.hstack((self.areas, self.heads))
-        own, boxes = (of_numbers, numbers) if on_lines else (
+        owners, boxes = (of_numbers, numbers) if on_lines else (
             np.concatenate((of_numbers, of_heads)), np.hstack((numbers, heads)))
         reach = boxes[1] + SPACE
-        bad[own[stand_on(boxes[0], reach, taken).any(axis=1)]] = True
-        bad[own[meets(self.segments, boxes[0], reach)[1]]] = True
+        bad[owners[stand_on(boxes[0], reach, taken).any(axis=1)]] = True
+        bad[owners[meets(self.segments, boxes[0], reach)[1]]] = True
         under = taken if over_lines else self.numbers
         bad[of_heads[stand_on(heads[0], heads[1] + SPACE, under).any(axis=1)]] = True
         return bad
@@ -266,25 +266,25 @@ class DimensionClearance:
     def _trimmed(self, lines: Sequence[Line]) -> list[Line | None]:
         """Extension lines, each beginning clear of its own point's symbols; None where too little is left."""
         lengths = [abs(line.end - line.start) for line in lines]
-        ways = [(line.end - line.start) / length for line, length in zip(lines, lengths, strict=True)]
-        ends = [(line.start, line.start + AROUND_POINT * way) for line, way in zip(lines, ways, strict=True)]
+        axes = [(line.end - line.start) / length for line, length in zip(lines, lengths, strict=True)]
+        ends = [(line.start, line.start + AROUND_POINT * axis) for line, axis in zip(lines, axes, strict=True)]
         near = segments_of(ends)
         starts = np.full(len(lines), -TRIM)
         np.maximum.at(starts, *_crossings(near, self.segments))
         # the symbols on the point end where the line leaves their boxes
         middles, reach = self.areas[0], self.areas[1] + 0.4 * (1 + 1j)
-        which, what = meets(near, middles, reach)
-        corners = zip((middles[what] - reach[what]).tolist(), (middles[what] + reach[what]).tolist(), strict=True)
+        which, under = meets(near, middles, reach)
+        corners = zip((middles[under] - reach[under]).tolist(), (middles[under] + reach[under]).tolist(), strict=True)
         for i, box in zip(which.tolist(), map(Box.around, corners), strict=True):
-            chord = box.clip(lines[i].start, lines[i].start + AROUND_POINT * ways[i])
+            chord = box.clip(lines[i].start, lines[i].start + AROUND_POINT * axes[i])
             if chord is not None:
                 starts[i] = max(starts[i], abs(chord[1] - lines[i].start) / AROUND_POINT)
-        found: list[Line | None] = []
-        for line, length, way, share in zip(lines, lengths, ways, starts.tolist(), strict=True):
+        trimmed: list[Line | None] = []
+        for line, length, axis, share in zip(lines, lengths, axes, starts.tolist(), strict=True):
             start = AROUND_POINT * share + TRIM if share > 0 else 0.0
             kept = start < length - LEAST_EXTENSION
-            found.append(Line(line.start + start * way, line.end, line.stroke) if kept else None)
-        return found
+            trimmed.append(Line(line.start + start * axis, line.end, line.stroke) if kept else None)
+        return trimmed
 
 
 def _course(arc: Arc) -> list[complex]:
@@ -306,7 +306,7 @@ _Thing = TypeVar("_Thing")
 
 def _owned(each: Sequence[Sequence[_Thing]], arrays: Callable[[Sequence[_Thing]], Points]) -> tuple[Indices, Points]:
     """Items of several owners as arrays, with the owner of each."""
-    return np.repeat(np.arange(len(each)), [len(some) for some in each]), arrays([one for some in each for one in some])
+    return np.repeat(np.arange(len(each)), [len(some) for some in each]), arrays([*chain.from_iterable(each)])
 
 
 def _run_over(lines: Points, boxes: Points, space: float) -> Indices:
@@ -318,23 +318,23 @@ def _ends(lines: Sequence[Line]) -> list[Segment]:
     return [(line.start, line.end) for line in lines]
 
 
-def _either_side(one: Floats, other: Floats) -> Flags:
+def _either_side(first: Floats, second: Floats) -> Flags:
     """Whether points lie on different sides of a line, or on it within rounding, by their areas with it."""
-    return (np.minimum(one, other) < ON_LINE) & (np.maximum(one, other) > -ON_LINE)
+    return (np.minimum(first, second) < ON_LINE) & (np.maximum(first, second) > -ON_LINE)
 
 
-def _crossings(own: Points, others: Points) -> tuple[Indices, Floats]:
+def _crossings(segments: Points, others: Points) -> tuple[Indices, Floats]:
     """Whether segments cross others, and the share of their length at the crossing."""
-    p, d = own[:, 0], own[:, 1] - own[:, 0]
+    p, d = segments[:, 0], segments[:, 1] - segments[:, 0]
     q, e = others[:, 0], others[:, 1] - others[:, 0]
     # of the few whose ends lie on different sides the others are asked
-    which, what = np.divmod(_either_side(_areas(p, d, q), _areas(p, d, q + e)).ravel().nonzero()[0], max(1, len(q)))
-    way, start = e.take(what), q.take(what)
-    both = _either_side(*(cross(way, end.take(which) - start) for end in (p, p + d)))
-    which, what = which[both], what[both]
-    turn = cross(d[which], e[what])
+    which, crossed = np.divmod(_either_side(_areas(p, d, q), _areas(p, d, q + e)).ravel().nonzero()[0], max(1, len(q)))
+    span, start = e.take(crossed), q.take(crossed)
+    both = _either_side(*(cross(span, end.take(which) - start) for end in (p, p + d)))
+    which, crossed = which[both], crossed[both]
+    turn = cross(d[which], e[crossed])
     along = np.abs(turn) < ON_LINE  # on one line: no place of their own
-    share = cross(q[what] - p[which], e[what]) / np.where(along, 1.0, turn)
+    share = cross(q[crossed] - p[which], e[crossed]) / np.where(along, 1.0, turn)
     return which, np.where(along, 0.0, share)
 
 
@@ -342,5 +342,5 @@ def _areas(start: Points, along: Points, to: Points) -> Floats:
     """Areas of some lines with points, shape (lines, points)."""
     # copies lie side by side in memory, which halves the time
     x, y = to.real.copy() - start.real[:, None], to.imag.copy() - start.imag[:, None]
-    found: Floats = along.real[:, None] * y - along.imag[:, None] * x
-    return found
+    areas: Floats = along.real[:, None] * y - along.imag[:, None] * x
+    return areas

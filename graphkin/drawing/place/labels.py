@@ -51,9 +51,9 @@ OFF_MIDDLE = 2.0  # mm that a place at the end of a vector costs more than one a
 LIKED = math.radians(40)
 
 
-def _grid(shares: Sequence[float], gaps: Sequence[float], ways: Sequence[int]) -> Floats:
-    """Places with all of some feet (shares of a mark), distances (mm) and ways (indices), shape (3, places)."""
-    return np.array([axis.ravel() for axis in np.meshgrid(shares, gaps, ways, indexing="ij")])
+def _grid(shares: Sequence[float], gaps: Sequence[float], directions: Sequence[int]) -> Floats:
+    """Places with all of some feet (shares of a mark), distances (mm) and directions (indices), shape (3, places)."""
+    return np.array([axis.ravel() for axis in np.meshgrid(shares, gaps, directions, indexing="ij")])
 
 
 _ROUND = (
@@ -131,47 +131,46 @@ LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 def outlined(forms: Floats, space: tuple[float, float]) -> Floats:
     """Forms of `Places`, followed by the lower and the higher corners of upright boxes, shape (20, 2, places) (mm).
 
-    Four are of what may meet another label (its box with a space, across and down, its leader, its box with
-    `LEADER_SPACE`, its leader), four of what that meets in turn (box, box with `LEADER_SPACE`, leader, leader).  A
-    missing leader is nowhere (nan).
+    Four are of the rows of `intersections` (box with a space, across and down, leader, box with `LEADER_SPACE`,
+    leader), four of its columns (box, box with `LEADER_SPACE`, leader, leader).  A missing leader is nowhere (nan).
     """
     middles, halves, feet, tips = forms
     led = (feet != tips).any(axis=0)
     outlines = np.empty((20, 2, forms.shape[2]))
     outlines[:4] = forms
     for sign, places in ((-1.0, (4, 12)), (1.0, (8, 16))):
-        bound, (ones, others) = np.minimum if sign < 0 else np.maximum, places
-        outlines[ones] = middles + sign * (halves + np.array(space)[:, None])
-        outlines[others] = middles + sign * halves
-        outlines[ones + 2] = outlines[others + 1] = middles + sign * (halves + LEADER_SPACE)
+        bound, (rows, columns) = np.minimum if sign < 0 else np.maximum, places
+        outlines[rows] = middles + sign * (halves + np.array(space)[:, None])
+        outlines[columns] = middles + sign * halves
+        outlines[rows + 2] = outlines[columns + 1] = middles + sign * (halves + LEADER_SPACE)
         leader = np.where(led, bound(feet, tips), np.nan)
-        outlines[ones + 1] = outlines[ones + 3] = outlines[others + 2] = outlines[others + 3] = leader
+        outlines[rows + 1] = outlines[rows + 3] = outlines[columns + 2] = outlines[columns + 3] = leader
     return outlines
 
 
-def intersections(ones: Floats, others: Floats) -> Flags:
+def intersections(rows: Floats, columns: Floats) -> Flags:
     """Whether labels, in rows, meet others, in columns, both as `outlined`: they come nearer than the space, or the
     leader of one runs over the box of the other, or nearly, or crosses its leader.  Nowhere (nan) is met by none."""
-    near = ones[4:8, :, :, None] <= others[16:20, :, None]
-    near &= ones[8:12, :, :, None] >= others[12:16, :, None]
+    near = rows[4:8, :, :, None] <= columns[16:20, :, None]
+    near &= rows[8:12, :, :, None] >= columns[12:16, :, None]
     near = near[:, 0] & near[:, 1]
     met: Flags = near[0]
     pairs = (near[1:] > met).ravel().nonzero()[0]
     if pairs.size:
-        # the leader of the one over the box of the other, its leader over the box of the one, and both leaders
+        # a row's leader over a column's box, a column's leader over a row's box, and both leaders
         first, last = pairs.searchsorted((met.size, 2 * met.size)).tolist()
         pairs %= met.size
         row = pairs // met.shape[1]
         column = pairs - row * met.shape[1]
         hit = np.empty(len(pairs), dtype=bool)
         if last:
-            box_one, box_other = ones[:2].take(row[first:last], axis=2), others[:2].take(column[:first], axis=2)
-            led_one, led_other = ones[2:4].take(row[:first], axis=2), others[2:4].take(column[first:last], axis=2)
+            box_one, box_other = rows[:2].take(row[first:last], axis=2), columns[:2].take(column[:first], axis=2)
+            led_one, led_other = rows[2:4].take(row[:first], axis=2), columns[2:4].take(column[first:last], axis=2)
             middles, halves = np.concatenate((box_other, box_one), axis=2)
             feet, tips = np.concatenate((led_one, led_other), axis=2)
             hit[:last] = ~separated(middles - feet, halves + LEADER_SPACE, tips - feet)
         if last < len(pairs):
-            hit[last:] = crosses(ones[2:4].take(row[last:], axis=2), others[2:4].take(column[last:], axis=2))
+            hit[last:] = crosses(rows[2:4].take(row[last:], axis=2), columns[2:4].take(column[last:], axis=2))
         met.ravel()[pairs[hit]] = True
     return met
 
@@ -236,8 +235,8 @@ class LabelPanel:
         x, y = (self.mark_end - self.mark_start)[:, self.own]
         along = x + 1j * y
         square = 1j * along / np.where(self.mark_is_point[self.own], 1.0, np.abs(along))
-        ways = np.hstack((np.broadcast_to(WAYS, (len(labels), len(WAYS))), np.outer(square, (1.0, -1.0))))
-        self.ways, self.disliked = in_rows(ways), _disliked([self.labels[i].toward for i in labels], ways)
+        directions = np.hstack((np.broadcast_to(WAYS, (len(labels), len(WAYS))), np.outer(square, (1.0, -1.0))))
+        self.ways, self.disliked = in_rows(directions), _disliked([self.labels[i].toward for i in labels], directions)
 
     def ask_for_keys(self) -> Mapping[int, int]:
         """Add requests for the keys of all labels that have one; returns them."""
@@ -283,16 +282,16 @@ class LabelPanel:
         requests = np.array(some, dtype=np.intp)
         is_point = self.mark_is_point[self.own[requests]]
         lots = (requests[is_point], around_points), (requests[~is_point], around_vectors)
-        owners = np.concatenate([np.repeat(own, pattern.shape[1]) for own, pattern in lots])
-        shares, gaps, turn = np.hstack([np.tile(pattern, len(own)) for own, pattern in lots])
+        owners = np.concatenate([np.repeat(lot, pattern.shape[1]) for lot, pattern in lots])
+        shares, gaps, turn = np.hstack([np.tile(pattern, len(lot)) for lot, pattern in lots])
         which = turn.astype(np.intp)
         mark, half = self.own.take(owners), self.half.take(owners, axis=1)
         direction = owners * self.ways.shape[2] + which
-        way = self.ways.reshape(2, -1).take(direction, axis=1)
+        along = self.ways.reshape(2, -1).take(direction, axis=1)
         feet = self.mark_start.take(mark, axis=1) + shares * (self.mark_end - self.mark_start).take(mark, axis=1)
-        reach = way * half
+        reach = along * half
         hold = np.minimum(np.maximum(1.6 * reach, -half), half)  # faster than clip
-        middles = feet + gaps * way + np.where(which >= len(WAYS), np.abs(reach).sum(axis=0) * way, hold)
+        middles = feet + gaps * along + np.where(which >= len(WAYS), np.abs(reach).sum(axis=0) * along, hold)
         costs = gaps + self.disliked.ravel().take(direction) + OFF_MIDDLE * np.abs(shares - 0.5)
         forms = np.stack((middles, half, feet, feet))
         return Places(forms, costs, gaps, np.zeros(len(gaps), dtype=bool), owners)
@@ -309,9 +308,9 @@ class LabelPanel:
         if not keep:
             places = places.picked(np.flatnonzero(faults == 0))
             faults = np.zeros(len(places.costs), dtype=int)
-        which, what = self._touched(places.forms[0], places.forms[1] + CLEARANCE, keep)
-        np.add.at(faults, which[what < self.solid], 1)
-        dashed = which[what >= self.solid]
+        which, touched = self._touched(places.forms[0], places.forms[1] + CLEARANCE, keep)
+        np.add.at(faults, which[touched < self.solid], 1)
+        dashed = which[touched >= self.solid]
         np.add.at(places.costs, dashed, DASHED_COST)
         places.bad[dashed] = True
         led = self._needs_leader(places)
@@ -331,10 +330,10 @@ class LabelPanel:
         some = led.nonzero()[0]
         middles, halves, feet = places.forms[:3].take(some, axis=2)
         owners = self.own.take(places.owners.take(some))
-        way = _gap(middles - feet, halves)
-        length = np.maximum(np.hypot(*way), 1e-9)
-        places.forms[3][:, some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
-        crossed, heaviest = self._crossed(feet, feet + way / length * FOOT_REACH, to)
+        gap = _gap(middles - feet, halves)
+        length = np.maximum(np.hypot(*gap), 1e-9)
+        places.forms[3][:, some] = to = feet + gap * np.maximum(0.0, 1.0 - LEADER_GAP / length)
+        crossed, heaviest = self._crossed(feet, feet + gap / length * FOOT_REACH, to)
         marks = self.mark_start.take(owners, axis=1), self.mark_end.take(owners, axis=1)
         nearest = np.minimum(*(np.hypot(*(ends - feet)) for ends in marks))
         costs = places.costs.take(some) + (LEADER_COST + CROSSED_COST * crossed)
@@ -348,10 +347,10 @@ class LabelPanel:
             return
         some = (~led & (places.gaps > BESIDE) & self.mark_is_point[self.own[places.owners]]).nonzero()[0]
         middles, halves, feet = places.forms[:3].take(some, axis=2)
-        way = _gap(middles - feet, halves)
-        first, last = feet + way / np.maximum(np.hypot(*way), 1e-9) * FOOT_REACH, feet + way
-        which, what = near(sides_around(first, last), sides_around(start, end))
-        over = touching(np.stack((first, last)).take(which, axis=2), np.stack((start, end)).take(what, axis=2))
+        gap = _gap(middles - feet, halves)
+        first, last = feet + gap / np.maximum(np.hypot(*gap), 1e-9) * FOOT_REACH, feet + gap
+        which, crossed = near(sides_around(first, last), sides_around(start, end))
+        over = touching(np.stack((first, last)).take(which, axis=2), np.stack((start, end)).take(crossed, axis=2))
         behind = np.zeros(len(some), dtype=bool)
         behind[which[over]] = True
         places.costs[some[behind]] += BEYOND_COST
@@ -383,12 +382,12 @@ class LabelPanel:
         led: Flags = places.gaps > LEADER_FROM
         close = (~led).nonzero()[0]
         middles, halves = places.forms[:2].take(close, axis=2)
-        own, reach = self.own[places.owners[close]], halves + (places.gaps[close] + NEARER)
-        which, what = near(sides(middles, reach), sides_around(self.mark_start, self.mark_end))
-        others = self.mistakable.ravel().take(own.take(which) * len(self.mistakable) + what).nonzero()[0]
-        which, what = which.take(others), what.take(others)
-        offset = middles.take(which, axis=1) - self.mark_start.take(what, axis=1)
-        along = (self.mark_end - self.mark_start).take(what, axis=1)
+        mark, reach = self.own[places.owners[close]], halves + (places.gaps[close] + NEARER)
+        which, other = near(sides(middles, reach), sides_around(self.mark_start, self.mark_end))
+        others = self.mistakable.ravel().take(mark.take(which) * len(self.mistakable) + other).nonzero()[0]
+        which, other = which.take(others), other.take(others)
+        offset = middles.take(which, axis=1) - self.mark_start.take(other, axis=1)
+        along = (self.mark_end - self.mark_start).take(other, axis=1)
         hit = ~separated(offset, reach.take(which, axis=1), along)
         led[close[which[hit]]] = True
         return led
@@ -396,19 +395,19 @@ class LabelPanel:
     def _crossed(self, feet: Floats, start: Floats, to: Floats) -> tuple[Floats, Floats]:
         """The weight of the strokes that each leader crosses, and the greatest single weight: areas are joints and
         arrowheads, or writing."""
-        which, what = near(sides_around(start, to), self.reach)
+        which, crossed = near(sides_around(start, to), self.reach)
         leader = np.stack((start, to)).take(which, axis=2)
-        stroke = np.stack((self.start, self.end)).take(what, axis=2)
+        stroke = np.stack((self.start, self.end)).take(crossed, axis=2)
         over = touching(leader, stroke).astype(float)
-        areas = (what < self.areas).nonzero()[0]  # a leader over an area crosses one of its diagonals
+        areas = (crossed < self.areas).nonzero()[0]  # a leader over an area crosses one of its diagonals
         low, high = stroke.take(areas, axis=2)
         foot = feet.take(which.take(areas), axis=1)
-        own = ((low <= foot) & (foot <= high)).all(axis=0)
-        written = self.weights.take(what.take(areas)) >= FORBIDDEN  # a foot under writing is no place for it
+        at_foot = ((low <= foot) & (foot <= high)).all(axis=0)
+        written = self.weights.take(crossed.take(areas)) >= FORBIDDEN  # a foot under writing is no place for it
         other = np.array(((low[0], high[1]), (high[0], low[1])))
-        over[areas] = np.where(own, written, over.take(areas) + crosses(leader.take(areas, axis=2), other))
+        over[areas] = np.where(at_foot, written, over.take(areas) + crosses(leader.take(areas, axis=2), other))
         hit = (over > 0.0).nonzero()[0]  # faster than of numbers
-        which, over = which.take(hit), over.take(hit) * self.weights.take(what.take(hit))
+        which, over = which.take(hit), over.take(hit) * self.weights.take(crossed.take(hit))
         heaviest = np.zeros(feet.shape[1])
         np.maximum.at(heaviest, which, over)
         whole: Any = np.bincount(which, over, len(heaviest))
@@ -433,11 +432,11 @@ def _ends(segments: Sequence[Segment]) -> tuple[Floats, Floats]:
     return in_rows(start), in_rows(end)
 
 
-def _disliked(toward: Sequence[tuple[float, ...]], ways: Points) -> Floats:
+def _disliked(toward: Sequence[tuple[float, ...]], directions: Points) -> Floats:
     """The cost of each direction from a mark (columns) for its preferred directions (rows): of a point from all of
     them, of a vector for the side of the last two directions."""
     first = np.array([page_direction((liked or (LIKED,))[0]) for liked in toward]).reshape(-1, 1)
-    costs: Floats = 0.4 * (1.0 - (ways * first.conj()).real)
+    costs: Floats = 0.4 * (1.0 - (directions * first.conj()).real)
     costs[:, : len(WAYS)] = 0.5 * _apart((LIKED,), WAYS) / np.pi
     rows = np.array([i for i, liked in enumerate(toward) for _ in liked], dtype=np.intp)
     if rows.size:
@@ -448,10 +447,10 @@ def _disliked(toward: Sequence[tuple[float, ...]], ways: Points) -> Floats:
     return costs
 
 
-def _apart(liked: Sequence[float], ways: Points) -> Floats:
+def _apart(liked: Sequence[float], columns: Points) -> Floats:
     """Angles (rad) between directions in columns and in rows."""
-    directions = np.array([page_direction(angle) for angle in liked])
-    angles: Floats = np.abs(np.angle(ways * directions.conj()[:, None]))
+    rows = np.array([page_direction(angle) for angle in liked])
+    angles: Floats = np.abs(np.angle(columns * rows.conj()[:, None]))
     return angles
 
 

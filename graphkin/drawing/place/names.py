@@ -41,8 +41,8 @@ def with_crowd(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> tuple[Pi
     labels = [label for label in piece.labels if label.rank < most]
     obstacles = Obstacles(areas=tuple(fences), writing=tuple(fences))
     for layer, drawn in piece.layers.items():
-        found = obstacles_of(drawn)
-        obstacles += replace(found, vectors=found.thick) if layer in POLYGONS else found
+        added = obstacles_of(drawn)
+        obstacles += replace(added, vectors=added.thick) if layer in POLYGONS else added
     written, crowded = named(labels, panel, obstacles, piece.marks)
     layers = {**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}
     return Piece(layers, (), piece.marks), crowded
@@ -52,8 +52,8 @@ def without(piece: Piece, ids: Collection[str]) -> Piece:
     """A piece without some of its written labels and their leaders."""
     written = piece.layers["labels"]
     kept = tuple(
-        one for one, after in zip_longest(written, written[1:])
-        if not any(isinstance(text, Text) and text.id in ids for text in (one, isinstance(one, Line) and after))
+        part for part, after in zip_longest(written, written[1:])
+        if not any(isinstance(text, Text) and text.id in ids for text in (part, isinstance(part, Line) and after))
     )
     return replace(piece, layers={**piece.layers, "labels": kept}) if len(kept) < len(written) else piece
 
@@ -67,14 +67,14 @@ def named(
     placed, crowded = placement.placed, placement.crowded
     listed: tuple[Text, ...] = ()
     if crowded:
-        found = _listed(placement, panel, obstacles)
-        if found is None and any(label.key and label.rank == AID for label in labels):
+        keyed = _listed(placement, panel, obstacles)
+        if keyed is None and any(label.key and label.rank == AID for label in labels):
             # there is no room for all: auxiliary vectors go without
             some = [replace(label, key=None) if label.rank == AID else label for label in labels]
-            found = _listed(Placement(some, panel, obstacles, marks), panel, obstacles)
-        if found and len(found[2]) < len(crowded):
-            placed, listed, crowded = found
-    written = (thing for one in placed for thing in (one.leader, one.text) if thing is not None)
+            keyed = _listed(Placement(some, panel, obstacles, marks), panel, obstacles)
+        if keyed and len(keyed[2]) < len(crowded):
+            placed, listed, crowded = keyed
+    written = (part for place in placed for part in (place.leader, place.text) if part is not None)
     return (*written, *listed), tuple(labels[i] for i in crowded)
 
 
@@ -85,13 +85,13 @@ def _listed(
     list has no room."""
     placement.shorten()
     placed = placement.placed
-    keyed, told = {one.text.id for one in placed if one.keyed}, {placement.labels[i].text.id for i in placement.told}
+    keyed, told = {name.text.id for name in placed if name.keyed}, {placement.labels[i].text.id for i in placement.told}
     entries = [
         _entry(label.text, label.key, label.between if label.text.id in told else "")
         for label in placement.labels if label.text.id in keyed | told
     ]
-    boxes = tuple(one.box for one in placed)
-    leaders = tuple((one.leader.start, one.leader.end) for one in placed if one.leader is not None)
+    boxes = tuple(name.box for name in placed)
+    leaders = tuple((name.leader.start, name.leader.end) for name in placed if name.leader is not None)
     names = _list(entries, panel, obstacles + Obstacles(solid=leaders, areas=boxes, writing=boxes))
     return (placed, names, placement.crowded) if names or not entries else None
 
@@ -111,9 +111,9 @@ def _list(entries: Sequence[Text], panel: Box, around: Obstacles) -> tuple[Text,
     """The entries in columns in a free place of the panel, or in order in several if none holds all of them; empty
     where there is no room."""
     for lines in range(len(entries), 0, -1):
-        found = _in_columns(entries, lines, panel, around, CLEAR)
-        if found:
-            return found
+        columns = _in_columns(entries, lines, panel, around, CLEAR)
+        if columns:
+            return columns
     for count in range(len(entries) - 1, 0, -1):
         first = _in_columns(entries[:count], count, panel, around, APART[1])
         if first:

@@ -52,20 +52,20 @@ def step_numbers(
     boxes = [text_box(text) for text in texts]
     half = np.array([complex(box.width, box.height) / 2 for box in boxes])
     tails, tips = (np.array([ends[k] for _, ends, _ in shown]) for k in (0, 1))
-    way = (tips - tails) / np.abs(tips - tails)
-    distance = OFF + np.abs(way.imag) * half.real + np.abs(way.real) * half.imag
+    axes = (tips - tails) / np.abs(tips - tails)
+    distance = OFF + np.abs(axes.imag) * half.real + np.abs(axes.real) * half.imag
     sides = np.array((1.0, -1.0))
     along = tails[:, None] + (tips - tails)[:, None] * SHARES
-    by_vectors = (along[:, :, None] + (1j * way * distance)[:, None, None] * sides).reshape(len(shown), -1)
+    by_vectors = (along[:, :, None] + (1j * axes * distance)[:, None, None] * sides).reshape(len(shown), -1)
     by_names = [_by_name(name, size) for (_, _, name), size in zip(shown, half.tolist(), strict=True)]
     gaps = distances(by_vectors, np.array([ends for _, ends, _ in arrows]))  # of the middles of numbers
     last = gaps.min(axis=-1) < gaps[np.arange(len(long)), :, long] - 1e-6
     order = np.argsort(np.hstack((last, np.zeros((len(long), 4), dtype=bool))), axis=1, kind="stable")
     places = np.take_along_axis(np.hstack((by_vectors, np.array(by_names))), order, axis=1)
-    found = first_free([*places], half.tolist(), around, AROUND_NUMBER, panel)
+    choices = first_free([*places], half.tolist(), around, AROUND_NUMBER, panel)
     return tuple(
         text._replace(at=complex(row[i]) - box.centre)
-        for text, box, row, i in zip(texts, boxes, places, found, strict=True) if i is not None
+        for text, box, row, i in zip(texts, boxes, places, choices, strict=True) if i is not None
     )
 
 
@@ -101,5 +101,5 @@ def beside_ring(
     (place,) = first_free([middles.ravel()], [half], around, AROUND_NUMBER, panel)
     if place is None:
         return None
-    gap, way = divmod(place, len(WAYS))
-    return complex(middles[gap, way]), (complex(edges[way]), complex(ends[gap, way])) if gap >= UNLED else None
+    gap, turn = divmod(place, len(WAYS))
+    return complex(middles[gap, turn]), (complex(edges[turn]), complex(ends[gap, turn])) if gap >= UNLED else None

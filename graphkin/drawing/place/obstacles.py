@@ -98,8 +98,8 @@ def near(boxes: Sides, others: Sides) -> tuple[Indices, Indices]:
     for first in range(0, len(others[0]), rows):
         met = overlapping(boxes, [side[first : first + rows] for side in others])
         pairs.append(met.ravel().nonzero()[0] + first * width)
-    what, which = np.divmod(np.concatenate(pairs), max(1, width))
-    return which, what
+    other, which = np.divmod(np.concatenate(pairs), max(1, width))
+    return which, other
 
 
 def separated(offset: Floats, half: Floats, along: Floats) -> Flags:
@@ -119,10 +119,10 @@ def separated(offset: Floats, half: Floats, along: Floats) -> Flags:
 def meets(segments: Points, centres: Points, half: Points) -> tuple[Indices, Indices]:
     """The pairs of segments, of shape (n, 2), and boxes that meet, by their indices."""
     start, end, middles, halves = map(in_rows, (*segments.T, centres, half))
-    which, what = near(sides_around(start, end), sides(middles, halves))
-    offset, along = middles.take(what, axis=1) - start.take(which, axis=1), (end - start).take(which, axis=1)
-    met = (~separated(offset, halves.take(what, axis=1), along)).nonzero()[0]
-    return which.take(met), what.take(met)
+    which, box = near(sides_around(start, end), sides(middles, halves))
+    offset, along = middles.take(box, axis=1) - start.take(which, axis=1), (end - start).take(which, axis=1)
+    met = (~separated(offset, halves.take(box, axis=1), along)).nonzero()[0]
+    return which.take(met), box.take(met)
 
 
 def crosses(lines: Floats, others: Floats) -> Flags:
@@ -215,14 +215,14 @@ def first_free(
         low, high = middles - reach, middles + reach
         free &= (low.real >= panel.left) & (high.real <= panel.right)
         free &= (low.imag >= panel.top) & (high.imag <= panel.bottom)
-    found: list[int | None] = []
-    for first, size, own in zip(accumulate(sizes, initial=0), sizes, halves, strict=False):
+    chosen: list[int | None] = []
+    for first, size, extent in zip(accumulate(sizes, initial=0), sizes, halves, strict=False):
         room = free[first : first + size].nonzero()[0]
         place = int(room[0]) if room.size else None
-        found.append(place)
+        chosen.append(place)
         if place is not None:  # it is in the way of those that come behind it
-            free &= ~stand_on(middles, reach, np.array([(middles[first + place],), (own,)]))[:, 0]
-    return found
+            free &= ~stand_on(middles, reach, np.array([(middles[first + place],), (extent,)]))[:, 0]
+    return chosen
 
 
 def free_boxes(
@@ -231,8 +231,8 @@ def free_boxes(
     """Up to ``count`` boxes of a size (mm) along the edges of a panel, ``clear`` (mm) of strokes; corners first."""
     boxes = _places(size, panel)
     middles = np.array([box.centre for box in boxes], dtype=complex)
-    found = first_free([middles] * count, [complex(*size) / 2] * count, obstacles, clear) if count else []
-    return [boxes[i] for i in found if i is not None]
+    places = first_free([middles] * count, [complex(*size) / 2] * count, obstacles, clear) if count else []
+    return [boxes[i] for i in places if i is not None]
 
 
 def _places(size: tuple[float, float], panel: Box) -> list[Box]:
@@ -274,8 +274,8 @@ def clearest_arc(
     reach = radius + ARC_RADII[-1] - ARC_RADII[0] + LABEL_AT + CLEAR_LABEL
     near = ends[(distances(np.array(centres, dtype=complex), ends) < reach).any(axis=0)]
     radii = np.array([radius + r - ARC_RADII[0] for r in ARC_RADII])
-    ways = on_page(np.exp(1j * (_MIDDLES[:, None] + _SPREAD)))  # middle x sample
-    arcs = np.array(centres)[:, None, None, None] + radii[:, None, None] * ways
+    directions = on_page(np.exp(1j * (_MIDDLES[:, None] + _SPREAD)))  # middle x sample
+    arcs = np.array(centres)[:, None, None, None] + radii[:, None, None] * directions
     names = np.array(centres)[:, None, None] + (radii[:, None] + LABEL_AT) * on_page(np.exp(1j * _MIDDLES))
     prices = 0.35 * (radii - radius)[:, None] + 0.5 * np.arange(len(centres))[:, None, None]
     prices = prices + 0.05 * np.abs(np.angle(np.exp(1j * (_MIDDLES - math.radians(50)))))

@@ -46,7 +46,7 @@ class Piece:
 
     @property
     def drawn(self) -> tuple[Primitive, ...]:
-        return tuple(thing for layer in self.layers.values() for thing in layer)
+        return tuple(part for layer in self.layers.values() for part in layer)
 
 
 def joined(pieces: Iterable[Piece]) -> Piece:
@@ -65,8 +65,8 @@ def joined(pieces: Iterable[Piece]) -> Piece:
 def dated(piece: Piece, since: int | None) -> Piece:
     """The piece with the number of the step from which it is shown, on its parts and names without one."""
 
-    def known(thing: Primitive) -> Primitive:
-        return thing._replace(since=since) if isinstance(thing, Group | Text) and thing.since is None else thing
+    def known(part: Primitive) -> Primitive:
+        return part._replace(since=since) if isinstance(part, Group | Text) and part.since is None else part
 
     layers = {layer: tuple(map(known, things)) for layer, things in piece.layers.items()}
     names = (label.text if label.text.since else label.text._replace(since=since) for label in piece.labels)
@@ -86,18 +86,18 @@ def cut_to(children: Iterable[Primitive], box: Box, bodies: bool = False) -> tup
     """The part of primitives in a box: lines are cut at its edge, other primitives left out if they cross it; with
     ``bodies`` the outlines of wide ones are cut as well."""
 
-    def cut(thing: Primitive) -> Primitive | None:
-        if isinstance(thing, Group):
-            return thing
-        if isinstance(thing, Line):
-            inside = box.clip(thing.start, thing.end)
-            return None if inside is None or inside[0] == inside[1] else thing._replace(start=inside[0], end=inside[1])
-        reach = _outermost(thing)
+    def cut(part: Primitive) -> Primitive | None:
+        if isinstance(part, Group):
+            return part
+        if isinstance(part, Line):
+            inside = box.clip(part.start, part.end)
+            return None if inside is None or inside[0] == inside[1] else part._replace(start=inside[0], end=inside[1])
+        reach = _outermost(part)
         around = Box.around(reach) if reach else None
         if around is None or box.holds(around):
-            return thing if around else None
-        if bodies and isinstance(thing, Polygon | Circle) and max(around.width, around.height) > WIDE:
-            return _body_in(thing, box)
+            return part if around else None
+        if bodies and isinstance(part, Polygon | Circle) and max(around.width, around.height) > WIDE:
+            return _body_in(part, box)
         return None
 
     return map_tree(children, cut)
@@ -121,34 +121,34 @@ def _body_in(body: Polygon | Circle, box: Box) -> Group:
 
 def kept_in(piece: Piece, box: Box) -> int:
     """The number of names of a piece in a box, and of primitives that are left out because they cross its edge."""
-    things = walk(cut_to(piece.drawn, box))
+    parts = walk(cut_to(piece.drawn, box))
     names = sum(box.distance(middle_of(name.mark)) == 0.0 for name in piece.labels)
-    return names + sum(not isinstance(one, Line | Group) for one in things)
+    return names + sum(not isinstance(part, Line | Group) for part in parts)
 
 
 def ink_box(children: Iterable[Primitive]) -> Box | None:
     """The box around all primitives, without line widths; None without primitives."""
-    held = [z for thing in walk(tuple(children)) for z in _outermost(thing)]
+    held = [z for part in walk(tuple(children)) for z in _outermost(part)]
     return Box.around(held) if held else None
 
 
-def _outermost(thing: Primitive) -> Sequence[complex]:
+def _outermost(part: Primitive) -> Sequence[complex]:
     """The extreme points of a primitive; none of a group."""
-    if isinstance(thing, Line):
-        return thing.start, thing.end
-    if isinstance(thing, Text):
-        if not thing.runs:
+    if isinstance(part, Line):
+        return part.start, part.end
+    if isinstance(part, Text):
+        if not part.runs:
             return ()
-        box = text_box(thing)
+        box = text_box(part)
         return complex(box.left, box.top), complex(box.right, box.bottom)
-    if isinstance(thing, Polyline | Polygon):
-        return thing.points
-    if isinstance(thing, Circle):
-        corner = complex(thing.radius, thing.radius)
-        return thing.centre - corner, thing.centre + corner
-    if isinstance(thing, Arc):
-        steps = [thing.start + (thing.end - thing.start) * i / 12 for i in range(13)]
-        return [thing.at(angle) for angle in steps]
+    if isinstance(part, Polyline | Polygon):
+        return part.points
+    if isinstance(part, Circle):
+        corner = complex(part.radius, part.radius)
+        return part.centre - corner, part.centre + corner
+    if isinstance(part, Arc):
+        steps = [part.start + (part.end - part.start) * i / 12 for i in range(13)]
+        return [part.at(angle) for angle in steps]
     return ()
 
 
@@ -162,8 +162,8 @@ def moved_piece(piece: Piece, by: complex) -> Piece:
 def renamed(piece: Piece, suffix: str) -> Piece:
     """The piece with other ids, for a page with others of its kind."""
 
-    def renamed(thing: Primitive) -> Primitive:
-        return thing._replace(id=thing.id + suffix) if isinstance(thing, Group | Text) and thing.id else thing
+    def renamed(part: Primitive) -> Primitive:
+        return part._replace(id=part.id + suffix) if isinstance(part, Group | Text) and part.id else part
 
     return replace(piece, layers={layer: map_tree(things, renamed) for layer, things in piece.layers.items()})
 
@@ -188,46 +188,46 @@ def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
     areas: list[Box] = []
     writing: list[Box] = []
     thick: list[Segment] = []
-    for thing in walk(children):
-        if isinstance(thing, Group):
+    for part in walk(children):
+        if isinstance(part, Group):
             continue
-        if isinstance(thing, Text):
-            if thing.runs:
-                writing.append(text_box(thing))
-        elif isinstance(thing, Line):
-            (dashed if thing.stroke.dash else solid).append((thing.start, thing.end))
-            if not thing.stroke.dash and thing.stroke.width >= THICK:
-                thick.append((thing.start, thing.end))
-        elif isinstance(thing, Circle) and not thing.fill and thing.stroke and thing.radius > SMALL / 2:
+        if isinstance(part, Text):
+            if part.runs:
+                writing.append(text_box(part))
+        elif isinstance(part, Line):
+            (dashed if part.stroke.dash else solid).append((part.start, part.end))
+            if not part.stroke.dash and part.stroke.width >= THICK:
+                thick.append((part.start, part.end))
+        elif isinstance(part, Circle) and not part.fill and part.stroke and part.radius > SMALL / 2:
             # the outline of a disc: labels may stand inside
-            (solid if thing.stroke.solid else dashed).extend(pairwise(_round(thing)))
-        elif isinstance(thing, Circle):
-            reach = thing.radius + (thing.stroke.width / 2 if thing.stroke else 0.0)
-            x, y = thing.centre.real, thing.centre.imag
+            (solid if part.stroke.solid else dashed).extend(pairwise(_round(part)))
+        elif isinstance(part, Circle):
+            reach = part.radius + (part.stroke.width / 2 if part.stroke else 0.0)
+            x, y = part.centre.real, part.centre.imag
             areas.append(Box(x - reach, y - reach, x + reach, y + reach))
-        elif isinstance(thing, Polygon) and thing.fill and _longer_side(box := Box.around(thing.points)) <= SMALL:
+        elif isinstance(part, Polygon) and part.fill and _longer_side(box := Box.around(part.points)) <= SMALL:
             if _longer_side(box) <= TINY:
                 areas.append(box)
             else:  # its outline, and lines across that leave no label room inside
-                count = len(thing.points)
-                solid.extend(pairwise(_corners(thing)))
-                solid.extend((thing.points[i], thing.points[(i + count // 2) % count]) for i in range(count // 2))
-        elif isinstance(thing, Polyline | Polygon | Arc) and thing.stroke is not None:
-            course = tuple(pairwise(_corners(thing)))
-            (solid if thing.stroke.solid else dashed).extend(course)
-            if thing.stroke.solid and thing.stroke.width >= THICK:
+                count = len(part.points)
+                solid.extend(pairwise(_corners(part)))
+                solid.extend((part.points[i], part.points[(i + count // 2) % count]) for i in range(count // 2))
+        elif isinstance(part, Polyline | Polygon | Arc) and part.stroke is not None:
+            course = tuple(pairwise(_corners(part)))
+            (solid if part.stroke.solid else dashed).extend(course)
+            if part.stroke.solid and part.stroke.width >= THICK:
                 thick.extend(course)
     return Obstacles(tuple(solid), tuple(dashed), (*writing, *areas), tuple(writing), tuple(thick))
 
 
-def _corners(thing: Polyline | Polygon | Arc) -> tuple[complex, ...]:
-    if isinstance(thing, Polyline):
-        return thing.points
-    if isinstance(thing, Polygon):
-        return *thing.points, thing.points[0]
-    turn = min(_ARC_STEP, 2 * math.sqrt(2 * _SAGITTA / max(thing.radius, 1.0)))
-    steps = max(1, math.ceil(abs(thing.end - thing.start) / turn))
-    return tuple(thing.at(thing.start + (thing.end - thing.start) * i / steps) for i in range(steps + 1))
+def _corners(part: Polyline | Polygon | Arc) -> tuple[complex, ...]:
+    if isinstance(part, Polyline):
+        return part.points
+    if isinstance(part, Polygon):
+        return *part.points, part.points[0]
+    turn = min(_ARC_STEP, 2 * math.sqrt(2 * _SAGITTA / max(part.radius, 1.0)))
+    steps = max(1, math.ceil(abs(part.end - part.start) / turn))
+    return tuple(part.at(part.start + (part.end - part.start) * i / steps) for i in range(steps + 1))
 
 
 def _round(circle: Circle) -> tuple[complex, ...]:

@@ -107,10 +107,10 @@ class Placement:
         form = self.panel.places.forms[:, :, k].tolist()
         middle, half, foot, tip = (complex(*corner) for corner in form)
         request = int(self.panel.places.owners[k])
-        text, own = self.panel.texts[request], self.panel.boxes[request]
+        text, bounds = self.panel.texts[request], self.panel.boxes[request]
         low, high = middle - half, middle + half
         box = Box(low.real, low.imag, high.real, high.imag)
-        text = text._replace(at=complex(box.left - own.left, box.top - own.top), anchor="start")
+        text = text._replace(at=complex(box.left - bounds.left, box.top - bounds.top), anchor="start")
         leader = None if foot == tip else Line(foot, tip, strokes.LEADER)
         return Placed(text, box, leader, self.paid[i] < FORBIDDEN, request != i)
 

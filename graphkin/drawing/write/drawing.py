@@ -93,7 +93,7 @@ class Drawing(Kept, Page):
 
     def _svg_pages(self) -> Iterator[SvgPage]:
         for page in (self, *self.further):
-            held = all(holds(thing.string) for thing in walk(page.children) if isinstance(thing, Text))
+            held = all(holds(part.string) for part in walk(page.children) if isinstance(part, Text))
             yield page.width, page.height, svg_element(page, alone=True), page.desc, not held
 
 

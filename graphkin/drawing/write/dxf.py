@@ -70,8 +70,8 @@ def closed_curve_dxf(vertices: Sequence[tuple[complex, float]], reach: float) ->
         space = document.modelspace()
         points = [(z.real, z.imag, bulge) for z, bulge in vertices]
         space.add_lwpolyline(points, format="xyb", close=True, dxfattribs={"layer": "profile"})
-        for way in (reach / 4, 1j * reach / 4):
-            space.add_line((-way.real, -way.imag), (way.real, way.imag), {"layer": "axis"})
+        for arm in (reach / 4, 1j * reach / 4):
+            space.add_line((-arm.real, -arm.imag), (arm.real, arm.imag), {"layer": "axis"})
 
     return _document(put)
 
@@ -104,19 +104,19 @@ class _Board:
     def __init__(self, document: DxfFile, height: float) -> None:
         self.document, self.space, self.height = document, document.modelspace(), height
 
-    def draw(self, things: Iterable[Primitive], layer: str) -> list[DXFGraphic]:
+    def draw(self, parts: Iterable[Primitive], layer: str) -> list[DXFGraphic]:
         """Draw on a layer; returns the entities."""
         made: list[DXFGraphic] = []
-        for thing in things:
-            if isinstance(thing, Group):
-                inner = self.draw(thing.children, thing.layer or layer)
-                if thing.id and not thing.layer and inner:
-                    self._named(thing.id, inner)
+        for part in parts:
+            if isinstance(part, Group):
+                inner = self.draw(part.children, part.layer or layer)
+                if part.id and not part.layer and inner:
+                    self._named(part.id, inner)
                 made += inner
-            elif isinstance(thing, Text):
-                made += self._text(thing, layer)
-            elif isinstance(thing, Stroked):  # a DXF holds no pictures
-                made += self._shape(thing, layer)
+            elif isinstance(part, Text):
+                made += self._text(part, layer)
+            elif isinstance(part, Stroked):  # a DXF holds no pictures
+                made += self._shape(part, layer)
         return made
 
     def _named(self, name: str, entities: list[DXFGraphic]) -> None:
@@ -129,38 +129,38 @@ class _Board:
     def _at(self, z: complex) -> tuple[float, float]:
         return round(z.real, 6), round(self.height - z.imag, 6)
 
-    def _shape(self, thing: Stroked, layer: str) -> list[DXFGraphic]:
+    def _shape(self, part: Stroked, layer: str) -> list[DXFGraphic]:
         made = []
-        fill = thing.fill if isinstance(thing, Polygon | Circle) else ""
+        fill = part.fill if isinstance(part, Polygon | Circle) else ""
         if fill and fill.lower() not in WHITE:
-            made.append(self._filled(thing, fill, layer))
-        if thing.stroke is None or thing.stroke.colour.lower() in WHITE:
+            made.append(self._filled(part, fill, layer))
+        if part.stroke is None or part.stroke.colour.lower() in WHITE:
             return made
-        look = self._look(thing.stroke, layer)
-        if isinstance(thing, Line):
-            made.append(self.space.add_line(self._at(thing.start), self._at(thing.end), look))
-        elif isinstance(thing, Circle):
-            made.append(self.space.add_circle(self._at(thing.centre), thing.radius, look))
-        elif isinstance(thing, Arc):
-            low, high = sorted((math.degrees(thing.start), math.degrees(thing.end)))
-            made.append(self.space.add_arc(self._at(thing.centre), thing.radius, low, high, dxfattribs=look))
+        look = self._look(part.stroke, layer)
+        if isinstance(part, Line):
+            made.append(self.space.add_line(self._at(part.start), self._at(part.end), look))
+        elif isinstance(part, Circle):
+            made.append(self.space.add_circle(self._at(part.centre), part.radius, look))
+        elif isinstance(part, Arc):
+            low, high = sorted((math.degrees(part.start), math.degrees(part.end)))
+            made.append(self.space.add_arc(self._at(part.centre), part.radius, low, high, dxfattribs=look))
         else:
-            closed = isinstance(thing, Polygon)
-            made.append(self.space.add_lwpolyline(list(map(self._at, thing.points)), close=closed, dxfattribs=look))
+            closed = isinstance(part, Polygon)
+            made.append(self.space.add_lwpolyline(list(map(self._at, part.points)), close=closed, dxfattribs=look))
         return made
 
-    def _filled(self, thing: Stroked, fill: str, layer: str) -> DXFGraphic:
+    def _filled(self, part: Stroked, fill: str, layer: str) -> DXFGraphic:
         look = {"layer": layer, "true_color": _colour(fill)}
-        if isinstance(thing, Polygon) and len(thing.points) in (3, 4):
-            corners = list(map(self._at, thing.points))
+        if isinstance(part, Polygon) and len(part.points) in (3, 4):
+            corners = list(map(self._at, part.points))
             if len(corners) == 4:
                 corners[2], corners[3] = corners[3], corners[2]  # as the format has it
             return self.space.add_solid(corners, look)
         hatch = self.space.add_hatch(dxfattribs=look)
-        if isinstance(thing, Circle):
-            hatch.paths.add_edge_path().add_arc(self._at(thing.centre), thing.radius, 0.0, 360.0)
-        elif isinstance(thing, Polygon):
-            hatch.paths.add_polyline_path(list(map(self._at, thing.points)), is_closed=True)
+        if isinstance(part, Circle):
+            hatch.paths.add_edge_path().add_arc(self._at(part.centre), part.radius, 0.0, 360.0)
+        elif isinstance(part, Polygon):
+            hatch.paths.add_polyline_path(list(map(self._at, part.points)), is_closed=True)
         return hatch
 
     def _look(self, stroke: Stroke, layer: str) -> dict[str, object]:
@@ -212,23 +212,23 @@ def profile_dxf(cam: LawCam) -> bytes:
 def outline_dxf(centre: complex, radius: float) -> bytes:
     """A round outline in mm about a centre (m) in the cam's own axes from its axis, with the axis marked.  Raises
     CallError without ezdxf."""
-    ends = [((centre + radius * way) * 1e3, 1.0) for way in (-1.0, 1.0)]
+    ends = [((centre + radius * side) * 1e3, 1.0) for side in (-1.0, 1.0)]
     return closed_curve_dxf(ends, radius * 1e3)
 
 
 def arcs_of_profile(cam: LawCam) -> list[Vertex]:
     """The profile as tangent arcs, two between each two of its points (biarcs), finer where it bends."""
-    found: list[Vertex] = []
+    vertices: list[Vertex] = []
     parts = cam.law.parts
     for part, following in zip(parts, (*parts[1:], parts[0]), strict=True):
         count = max(2, math.ceil(COUNT * (part.end - part.start) / math.tau))
         nodes = [part.start + (part.end - part.start) * k / count for k in range(count + 1)]
         for start, end in pairwise(nodes):
-            found += _between(cam, part, start, end, ROUNDS)
+            vertices += _between(cam, part, start, end, ROUNDS)
         (corner, t), (begin, _) = _point(cam, part, part.end), _point(cam, following, following.start)
         if abs(begin - corner) > KEEPS:  # the speed jumps: along the face, or around the roller
-            found.append((corner, _bulge(corner, t if dot(t, begin - corner) >= 0.0 else -t, begin)))
-    return found
+            vertices.append((corner, _bulge(corner, t if dot(t, begin - corner) >= 0.0 else -t, begin)))
+    return vertices
 
 
 def _point(cam: LawCam, part: LiftPiece, degree: float) -> tuple[complex, complex]:

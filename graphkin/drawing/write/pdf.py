@@ -54,9 +54,9 @@ def faces(more: bool) -> tuple[list[str], typst.Fonts]:
     the machine, for Chinese characters that the family lacks."""
     import typst
 
-    found = typst.Fonts(include_system_fonts=more, font_paths=[str(FOLDER)])
-    known = set(found.families())
-    return [name for name in (FAMILY, *CHINESE, *SIGNS) if name in known], found
+    fonts = typst.Fonts(include_system_fonts=more, font_paths=[str(FOLDER)])
+    known = set(fonts.families())
+    return [name for name in (FAMILY, *CHINESE, *SIGNS) if name in known], fonts
 
 
 def in_faces(svg: str, names: Sequence[str]) -> str:

@@ -81,8 +81,8 @@ def svg_bytes(drawing: Page, debug: bool = False, outlines: bool = False) -> byt
     """
     ink = _Ink(drawing.lang, outlines)
     facts = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
-    told = {"title": drawing.title, "desc": drawing.desc, "metadata": facts}
-    parts = [ink.element(tag, "", _escaped(_clean(words))) for tag, words in told.items() if words]
+    texts = {"title": drawing.title, "desc": drawing.desc, "metadata": facts}
+    parts = [ink.element(tag, "", _escaped(_clean(words))) for tag, words in texts.items() if words]
     drawn = ink.page(drawing)
     head = {**_head(drawing), **_NAMESPACES, "baseProfile": "full", "version": "1.1", "xml:lang": _quoted(drawing.lang)}
     name, rules = face_rules({} if outlines else {style: "".join(words) for style, words in ink.used.items()})
@@ -160,25 +160,25 @@ class _Ink:
         """The attribute of an area, empty for none."""
         return _fill(colour, self.short)
 
-    def draw(self, thing: Primitive) -> str:
-        if isinstance(thing, Group):
-            return self._group(thing)
-        if isinstance(thing, Text):
-            return self._text(thing)
-        if isinstance(thing, Line):
-            return self._line(thing)
-        if isinstance(thing, Scan):
-            return self._scan(thing)
-        look = _look(thing.stroke, self.short)
-        if isinstance(thing, Circle):
-            x, y = _pair(thing.centre)
-            fill, radius = self.filled(thing.fill), number(thing.radius)
+    def draw(self, part: Primitive) -> str:
+        if isinstance(part, Group):
+            return self._group(part)
+        if isinstance(part, Text):
+            return self._text(part)
+        if isinstance(part, Line):
+            return self._line(part)
+        if isinstance(part, Scan):
+            return self._scan(part)
+        look = _look(part.stroke, self.short)
+        if isinstance(part, Circle):
+            x, y = _pair(part.centre)
+            fill, radius = self.filled(part.fill), number(part.radius)
             return f'<circle cx="{x}" cy="{y}"{fill} r="{radius}"{look}{self.closing}'
-        if isinstance(thing, Polygon):
-            return f'<polygon{self.filled(thing.fill)} points="{_points(thing.points)}"{look}{self.closing}'
-        if isinstance(thing, Polyline):
-            return f'<polyline fill="none" points="{_points(thing.points)}"{look}{self.closing}'
-        return f'<path d="{_arc(thing)}" fill="none"{look}{self.closing}'
+        if isinstance(part, Polygon):
+            return f'<polygon{self.filled(part.fill)} points="{_points(part.points)}"{look}{self.closing}'
+        if isinstance(part, Polyline):
+            return f'<polyline fill="none" points="{_points(part.points)}"{look}{self.closing}'
+        return f'<path d="{_arc(part)}" fill="none"{look}{self.closing}'
 
     def _line(self, line: Line) -> str:
         """A line, cut by a clip if its end lies under an arrowhead."""
@@ -222,8 +222,8 @@ class _Ink:
         for move in motion.moves:
             last = last if move is None else move
             moves.append(" ".join(_pair(last)))
-        way = _attributes({**transform, "type": "translate", "values": ";".join(moves)})
-        parts = [self.element("animateTransform", way)]
+        travel = _attributes({**transform, "type": "translate", "values": ";".join(moves)})
+        parts = [self.element("animateTransform", travel)]
         if None in motion.moves:
             seen = ";".join("hidden" if m is None else "visible" for m in motion.moves)
             shown = {"attributeName": "visibility", "values": seen, "calcMode": "discrete", **always}
