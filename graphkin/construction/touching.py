@@ -156,7 +156,7 @@ class Touching:
                 at = station(pair, pair.sense * phase(pose.axis))
                 point, contact = (pose.origin + pose.axis * z * self.mm for z in (at.point, at.contact))
                 cams.append(CamOnPaper(pair, self.profile(pair), point, contact, pose.axis * at.normal,
-                                        pair.roller * self.mm))
+                                       pair.roller * self.mm))
         return tuple(cams)
 
     def profile(self, cam: LawCam) -> tuple[complex, ...]:

@@ -101,7 +101,7 @@ class TurnOfCrank:
                                                       "ask for an output that moves", name=name))
         lows, highs = (self._extremes(output, travels, sign) for sign in (-1.0, 1.0))
         sense = -1.0 if self.placed.structure.scene.drivers[0].rate < 0.0 else 1.0
-        below, above = ([(sense * one.value + EQUAL, 0.0) for one in equal] for equal in (lows, highs))
+        below, above = ([(sense * limit.value + EQUAL, 0.0) for limit in equal] for equal in (lows, highs))
         strokes = strokes_between(below, above, math.tau)
         low, high = lows[strokes.low], highs[strokes.high]
         if len(lows) == len(highs) == 1:

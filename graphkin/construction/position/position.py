@@ -244,14 +244,14 @@ def poses_at(placed: PlacedElements, values: Mapping[str, float]) -> Poses:
         return moved_to(placed, start, values, poses)
     # from beside the dead point, on the side to which the motion goes
     for end in ways(drivers, [*start.values()], [values[key] for key in start], placed.structure.rolls):
-        way = {d.key: to - start[d.key] for d, to in zip(drivers, end, strict=True)}
-        length = max(abs(way[d.key]) / d.span(placed.structure.scene.size) for d in drivers)
-        way = {key: value * min(0.5, BESIDE / length) for key, value in way.items()} if length else way
+        travel = {d.key: to - start[d.key] for d, to in zip(drivers, end, strict=True)}
+        length = max(abs(travel[d.key]) / d.span(placed.structure.scene.size) for d in drivers)
+        travel = {key: value * min(0.5, BESIDE / length) for key, value in travel.items()} if length else travel
         try:
-            poses = own_position(placed.at_start, beside=way).poses
+            poses = own_position(placed.at_start, beside=travel).poses
         except Unsolvable:
             continue
-        return moved_to(placed, {key: value + way[key] for key, value in start.items()}, values, poses)
+        return moved_to(placed, {key: value + travel[key] for key, value in start.items()}, values, poses)
     (problem, *_) = at_start.problems
     raise Unsolvable("dead point", replace(problem, wanted=Phrase("move the own position off")))
 
@@ -285,26 +285,26 @@ def cams_in_place(
 
 
 def moved_to(
-    placed: PlacedElements, own: Mapping[str, float], values: Mapping[str, float], poses: Poses
+    placed: PlacedElements, start: Mapping[str, float], values: Mapping[str, float], poses: Poses
 ) -> Poses:
-    """All links at driver values, followed from their poses at others (``own``), on paper of the mechanism's size.
+    """All links at driver values, followed from their poses at others (``start``), on paper of the mechanism's size.
 
     Raises
     ------
     Unsolvable : "not assembled": the motion does not reach the values; the message gives the limit
     """
-    if values == own:
+    if values == start:
         return poses
     scene = placed.structure.scene
-    first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
+    first, goal = [start[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     limits: list[Mapping[str, float]] = []
     for end in ways(scene.drivers, first, goal, placed.structure.rolls):
         target = scene.by_driver(end)
-        length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
+        length = max(abs(target[d.key] - start[d.key]) / d.span(scene.size) for d in scene.drivers)
         longest = 1.0 / max(1, math.ceil(length / (STEP if placed.of else LONG_STEP)))
 
         def at(part: float, target: Mapping[str, float] = target) -> dict[str, float]:
-            return {k: own[k] + part * (target[k] - own[k]) for k in own}
+            return {k: start[k] + part * (target[k] - start[k]) for k in start}
 
         def near(part: float, guess: Poses, there: Poses, at: Callable[[float], dict[str, float]] = at) -> Poses | None:
             return found_near(placed, at(part), guess, there, there)
@@ -315,7 +315,7 @@ def moved_to(
         if part == 1.0:
             return reached
         limits.append(at(part))
-    raise Unsolvable("not assembled", out_of_reach(scene, dict(zip(own, goal, strict=True)), limits))
+    raise Unsolvable("not assembled", out_of_reach(scene, dict(zip(start, goal, strict=True)), limits))
 
 
 def found_near(
@@ -359,17 +359,17 @@ def own_position(
     structure, of_group = placed.structure, of_group or partial(_group_by_sketch, placed)
     wanted = {n for element in placed.elements for n in element.members}
     here = [element for element in structure.elements if wanted.intersection(element.members)]
-    branches, way = dict[int, int](), beside or {}
+    branches, travel = dict[int, int](), beside or {}
 
     def at(part: float) -> PlacedLinks:
-        values = {d.key: d.values[0] + part * way.get(d.key, 0.0) for d in structure.scene.drivers}
+        values = {d.key: d.values[0] + part * travel.get(d.key, 0.0) for d in structure.scene.drivers}
         paper = start_board(structure, 1.0 / structure.scene.size, values)
 
         def choose(i: int, element: Dyad | LargerGroup) -> Poses:
             if isinstance(element, LargerGroup):
                 return of_group(paper, element)
             met = meet(paper, element)
-            if part < 1.0 and way and met.poses and met.sine < TOUCHING:
+            if part < 1.0 and travel and met.poses and met.sine < TOUCHING:
                 branches[i] = 0
                 return met.poses[0]
             poses = meeting(structure, paper, element).poses
@@ -381,7 +381,7 @@ def own_position(
         return paper
 
     paper = at(HAIR)
-    return at(1.0) if way else paper
+    return at(1.0) if travel else paper
 
 
 def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGroup) -> Poses:

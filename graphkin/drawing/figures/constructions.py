@@ -399,8 +399,8 @@ def _given(scene: Mechanism, cam: LawCam, language: str) -> RichText:
     kind = term("cam flat" if cam.flat else "cam roller" if cam.roller else "cam edge", language)
     sense = "counter-clockwise" if cam.sense > 0 else "clockwise"
     backwards = any(d.link == cam.link and d.turns and d.values[1] * cam.sense < 0.0 for d in scene.drivers)
-    told = Phrase("cam turns back" if backwards else "cam turns", sense=Phrase(sense))
-    turns = spaced(" ", in_all(told, language))
+    turning = Phrase("cam turns back" if backwards else "cam turns", sense=Phrase(sense))
+    turns = spaced(" ", in_all(turning, language))
     return kind + "; " + spaced(",  ", parts) + "; " + turns
 
 

@@ -104,14 +104,14 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
     Unsolvable : a named position that cannot be assembled or reached
     """
     structure, scene = planned.structure, planned.structure.scene
-    own = execute(planned)
+    sheet = execute(planned)
     positions = scene.question.positions
     show, marks = (positions.show, tuple[str, ...](positions.marks)) if positions else (("limits",), MARKS)
     every = positions.names[: positions.count] if positions and "all" in show else ()
     key = scene.drivers[0].key
 
     def drawn(value: float) -> Sheet:
-        return execute(plan(structure, {**own.drivers, key: value}, ())).at(own.scales)
+        return execute(plan(structure, {**sheet.drivers, key: value}, ())).at(sheet.scales)
 
     numbered = {name: drawn(value) for name, value in values.items() if name in (*show, *every)}
     output = ""
@@ -122,7 +122,7 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
         kinds = ("stroke" if "/" in output else "swing", "K", "theta_lag")
         asked = tuple(Symbol.parse(f"{kind}_{output}") for kind in kinds)
         try:
-            turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
+            turned = execute(plan(structure, sheet.drivers, asked)).at(sheet.scales)
             low, high = turned.limits[output]
             limits = drawn(low.value), drawn(high.value)
         except Unsolvable as stop:  # no whole turn, not of all links, or an output that turns on and on
@@ -133,52 +133,52 @@ def shown_positions(planned: Plan, values: Mapping[str, float]) -> Shown:
             marks = tuple(mark for mark in marks if mark != "theta")
         measured = {r.symbol.kind: float(r.value.real) for r in read_off(turned) if r.symbol in asked}
         break
-    turn = _turn(structure, own)
+    turn = _turn(structure, sheet)
     least = _least(structure, turn, drawn) if turn and "gamma" in marks else None
-    paths = _paths(structure, turn, own) if turn else {}
-    return Shown(own, output, limits, numbered, least, paths, measured, marks, {} if limits else without)
+    paths = _paths(structure, turn, sheet) if turn else {}
+    return Shown(sheet, output, limits, numbered, least, paths, measured, marks, {} if limits else without)
 
 
 def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
     """Outputs whose limits are shown, the likeliest first: the output of position 1, slides on the frame, rockers."""
-    frame, found = scene.frame, []
+    frame, outputs = scene.frame, []
     if scene.question.positions is not None:
         places = (scene.question.positions.first, *scene.question.positions.also.values())
-        found += [place.stroke for place in places if place is not None and not isinstance(place, float)]
+        outputs += [place.stroke for place in places if place is not None and not isinstance(place, float)]
     last = [n for g in reversed(structure.groups) for n in g.links]
-    found += [s.key for name in last for s in structure.slides if s.a == name and s.b == frame.name and not s.higher]
-    found += [name for name in last if any(p in frame.points for p in structure.links[name].points)]
-    return list(dict.fromkeys(found))
+    outputs += [s.key for name in last for s in structure.slides if s.a == name and s.b == frame.name and not s.higher]
+    outputs += [name for name in last if any(p in frame.points for p in structure.links[name].points)]
+    return list(dict.fromkeys(outputs))
 
 
-def _turn(structure: Structure, own: Sheet) -> TurnOfCrank | None:
-    size = own.scales.length / structure.scene.size
-    poses = {name: pose.scaled(size) for name, pose in own.poses.items()}
+def _turn(structure: Structure, sheet: Sheet) -> TurnOfCrank | None:
+    size = sheet.scales.length / structure.scene.size
+    poses = {name: pose.scaled(size) for name, pose in sheet.poses.items()}
     if structure.scene.instead_of is not None:  # bars in a cam's place hold here alone
         return None
     if not set(structure.links) <= set(poses) or not structure.scene.drivers[0].turns:
         return None
     try:
-        return TurnOfCrank.of(structure, structure.elements, own.drivers, poses, "positions")
+        return TurnOfCrank.of(structure, structure.elements, sheet.drivers, poses, "positions")
     except GraphkinError:
         return None
 
 
-def _paths(structure: Structure, turn: TurnOfCrank, own: Sheet) -> dict[str, list[complex]]:
+def _paths(structure: Structure, turn: TurnOfCrank, sheet: Sheet) -> dict[str, list[complex]]:
     """The paths of points of couplers, links without a pivot or a guide on the frame."""
     frame = structure.scene.frame
     held = {n for n, link in structure.links.items() if any(p in frame.points for p in link.points)}
     held |= {n for s in structure.slides for n in (s.a, s.b) if frame.name in (s.a, s.b)} | {frame.name}
-    mm = structure.scene.size / own.scales.length
-    found: dict[str, list[complex]] = {}
+    mm = structure.scene.size / sheet.scales.length
+    paths: dict[str, list[complex]] = {}
     for name, link in structure.links.items():
         for point, local in link.points.items():
             if point in structure.scene.holders and not held & set(structure.scene.holders[point]):
-                found.setdefault(point, [
-                    (one.poses[name].origin + one.poses[name].axis * local / structure.scene.size) * mm
-                    for one in turn.positions
+                paths.setdefault(point, [
+                    (position.poses[name].origin + position.poses[name].axis * local / structure.scene.size) * mm
+                    for position in turn.positions
                 ])
-    return found
+    return paths
 
 
 def _least(structure: Structure, turn: TurnOfCrank, drawn: Callable[[float], Sheet]) -> _Least | None:

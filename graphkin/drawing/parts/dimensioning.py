@@ -71,7 +71,7 @@ def drawn_lengths(
     obstacles, around = obstacles_of(drawn), ink_box(drawn)
 
     def drawn_by(room: DimensionClearance, *kinds: Dimensioner) -> Iterator[Parts | Label]:
-        return (one for kind in kinds for one in kind(here, room))
+        return (part for kind in kinds for part in kind(here, room))
 
     room = DimensionClearance(obstacles, panel)
     usual = _placed(drawn_by(room, _frame, _bars, _angles, guide_dimensions, travels), around, most)
@@ -83,7 +83,7 @@ def drawn_lengths(
     if alone is None or alone[1] >= usual[1]:  # others are not in their way
         return usual[0]
     drivers_first = _placed(chain(driven, drawn_by(room, _frame, _bars, guide_dimensions)), around, most)
-    return min((usual, drivers_first or usual), key=lambda one: one[1])[0]
+    return min((usual, drivers_first or usual), key=lambda placed: placed[1])[0]
 
 
 def _placed(
@@ -94,13 +94,13 @@ def _placed(
     parts: list[Primitive] = []
     labels: list[Label] = []
     without = 0
-    for one in dimensions:
-        if isinstance(one, Label):
-            without += one.text.id.startswith(DRIVEN)
-            labels.append(one)
+    for part in dimensions:
+        if isinstance(part, Label):
+            without += part.text.id.startswith(DRIVEN)
+            labels.append(part)
             continue
-        parts += one
-        if most is not None and (added := ink_box(one)) is not None:
+        parts += part
+        if most is not None and (added := ink_box(part)) is not None:
             reach = added if reach is None else reach.joined(added)
             if reach.width > most[0] or reach.height > most[1]:
                 return None
@@ -122,17 +122,17 @@ def _bars(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts | 
             parts = _turned(room, on_page(places[at]), (first,), turn, ANGLE_RADII)
             if parts is not None:
                 yield parts
-        for one, other in spans:
-            if one not in places or other not in places or abs(places[one] - places[other]) < 1.0:
+        for near, far in spans:
+            if near not in places or far not in places or abs(places[near] - places[far]) < 1.0:
                 continue
-            ends = on_page(places[one]), on_page(places[other])
-            value = _distance(link, one, other) / here.scene.units.metres
+            ends = on_page(places[near]), on_page(places[far])
+            value = _distance(link, near, far) / here.scene.units.metres
             runs = rich(printed(as_given(value)), SIZE)
             long = abs(ends[1] - ends[0]) >= LEAST
             parts = room.take(dimension(*ends, offset, runs) for offset in OFFSETS) if long else None
             if parts is None and link.name in scene.replacing:  # no bar is drawn: its length is the radius of a slot
                 runs, ends = rich(f"R {printed(as_given(value))}", SIZE), (ends[1], ends[1])
-            yield parts or Label.of(runs, ends, f"label-length-{one}{other}", rank=1, classes=("length",))
+            yield parts or Label.of(runs, ends, f"label-length-{near}{far}", rank=1, classes=("length",))
 
 
 def _spans(link: PlacedLink, metres: float) -> tuple[list[tuple[str, str]], list[tuple[str, str, str]]]:
@@ -142,14 +142,14 @@ def _spans(link: PlacedLink, metres: float) -> tuple[list[tuple[str, str]], list
     corners = []
     for further in (p for p in link.points if p not in link.bar):
         far = {p: _distance(link, p, further) / metres for p in link.bar}
-        own = sorted((p for p in link.bar if far[p] > 0.0), key=lambda p: not _round(far[p]))
+        ends = sorted((p for p in link.bar if far[p] > 0.0), key=lambda p: not _round(far[p]))
         on_the_bar = abs(link.points[further].imag) < 1e-9 * abs(link.points[further])
-        if len(own) == 2 and not on_the_bar and not _round(far[own[1]]):
-            angle = math.degrees(_angle(link, own[1], own[0], further))
+        if len(ends) == 2 and not on_the_bar and not _round(far[ends[1]]):
+            angle = math.degrees(_angle(link, ends[1], ends[0], further))
             if abs(angle - round(angle, 2)) < 1e-7:
-                corners.append((own[1], own[0], further))
-                own = own[:1]
-        spans += [(p, further) for p in (own[:1] if on_the_bar else own)]
+                corners.append((ends[1], ends[0], further))
+                ends = ends[:1]
+        spans += [(p, further) for p in (ends[:1] if on_the_bar else ends)]
     return spans, corners
 
 
@@ -164,8 +164,8 @@ def _turned(
 ) -> Parts | None:
     """A turn (rad) about a place on the page from one of some directions."""
     runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
-    ways = product(_seen(radii, turn) or radii[-1:], starts)
-    drawn = (angle_dimension(at, radius, start, start + turn, runs) for radius, start in ways)
+    choices = product(_seen(radii, turn) or radii[-1:], starts)
+    drawn = (angle_dimension(at, radius, start, start + turn, runs) for radius, start in choices)
     return room.take(drawn, 0, ends_on_line=True)
 
 
@@ -174,8 +174,8 @@ def _seen(radii: Sequence[float], turn: float) -> list[float]:
     return [radius for radius in radii if radius * abs(turn) >= LEAST_ARC]
 
 
-def _distance(link: PlacedLink, one: str, other: str) -> float:
-    return abs(link.points[other] - link.points[one])
+def _distance(link: PlacedLink, start: str, end: str) -> float:
+    return abs(link.points[end] - link.points[start])
 
 
 def _round(value: float) -> bool:
@@ -212,7 +212,7 @@ def _frame(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
             pairs.add(min(levels, key=lambda pair: (pair[1] - pair[0], pair)))
         wide = [pair for pair in sorted(pairs) if pair[1] - pair[0] >= SHORTEST]
         whole = None
-        if len(wide) > 1 and all(one[1] == two[0] for one, two in pairwise(wide)):
+        if len(wide) > 1 and all(lower[1] == upper[0] for lower, upper in pairwise(wide)):
             whole = _beside(here, room, places, (*(low for low, _ in wide), wide[-1][1]), upright)
         if whole is not None:
             yield whole
@@ -223,9 +223,9 @@ def _frame(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts]:
                 yield parts
 
 
-def _levels(one: complex, other: complex, upright: bool) -> tuple[float, float]:
+def _levels(first: complex, second: complex, upright: bool) -> tuple[float, float]:
     """The levels of two places: lower and upper, or left and right."""
-    low, high = sorted((_part(one, upright), _part(other, upright)))
+    low, high = sorted((_part(first, upright), _part(second, upright)))
     return round(low, 6), round(high, 6)
 
 
@@ -250,15 +250,15 @@ def _beside(
     ]
     within = [high + far if side > 0 else low - far for far in INSIDE for side in sides]
     within += [line for far in INSIDE for line in (low + far, high - far) if low < line < high]
-    ways = (1j, 1 + 0j) if upright else (1 + 0j, 1j)
+    axes = (1j, 1 + 0j) if upright else (1 + 0j, 1j)
     given = [_given(here, level, upright) for level in levels]
     values = [rich(printed(as_given(high - low)), SIZE) for low, high in pairwise(given)]
     for lines, over_lines in (*((lot, False) for lot in lots), (within, False), (within, True)):
         shares = SHARES[:3] if over_lines else SHARES[:1]
-        drawn = (_on_line(spots, levels, line, *ways, values, share) for share in shares for line in lines)
-        found = room.take((parts for parts in drawn if parts is not None), len(levels), over_lines=over_lines)
-        if found is not None:
-            return found
+        drawn = (_on_line(spots, levels, line, *axes, values, share) for share in shares for line in lines)
+        taken = room.take((parts for parts in drawn if parts is not None), len(levels), over_lines=over_lines)
+        if taken is not None:
+            return taken
     return None
 
 
@@ -267,7 +267,7 @@ def _given(here: MechanismOnPaper, level: float, upright: bool) -> float:
     frame = here.scene.frame
     fixed = [*frame.points.values(), *(guide.through for guide in frame.guides.values())]
     given = [_part(on_page(z), upright) / here.sheet.scales.length for z in fixed]
-    near = min(given, key=lambda own: abs(own - level), default=level)
+    near = min(given, key=lambda mm: abs(mm - level), default=level)
     return (near if abs(near - level) < NEAR else level) * here.sheet.scales.length / here.scene.units.metres
 
 
@@ -285,24 +285,24 @@ def _angles(here: MechanismOnPaper, room: DimensionClearance) -> Iterator[Parts 
         if pivot is None:
             continue
         start = phase(base.axis) if base is not None else 0.0
-        at, way = on_page(pivot), complex(math.cos(start), -math.sin(start))
+        at, along = on_page(pivot), complex(math.cos(start), -math.sin(start))
         # rather an arc over the links than none
-        found = None
+        arc = None
         for turn, (crossing, radii) in product(turns, ((False, ANGLE_RADII), (True, CLOSE_RADII))):
             runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
             choices = (
-                (Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION),
+                (Line(at + 2.2 * along, at + (radius + 3.0) * along, strokes.DIMENSION),
                  *angle_dimension(at, radius, start, start + turn, runs, share))
                 for radius, share in product(_seen(radii, turns[-1]), SHARES)
                 if radius <= WIDEST_ROUND or abs(turn) <= math.pi
             )
-            found = found or room.take(choices, 1, over=True, ends_on_line=True, crossing=crossing)
-        if found is not None:
-            yield found
+            arc = arc or room.take(choices, 1, over=True, ends_on_line=True, crossing=crossing)
+        if arc is not None:
+            yield arc
             continue
         index = driver.link if driver.relative_to == here.scene.frame.name else driver.link + driver.relative_to
-        told = rich(sign("φ", index) + f" = {number(math.degrees(turns[0]), 5)}°", SIZE)
-        yield driven_value(here, driver.key, told, at)
+        words = rich(sign("φ", index) + f" = {number(math.degrees(turns[0]), 5)}°", SIZE)
+        yield driven_value(here, driver.key, words, at)
 
 
 DRIVEN = "label-driven-"  # how the id of a driver's value begins where it is a label
@@ -352,7 +352,7 @@ def driven_value(here: MechanismOnPaper, key: str, runs: tuple[Run, ...], mark: 
 def _shown(here: MechanismOnPaper) -> list[Slider]:
     """The sliding pairs of the scene, without those that replace higher pairs."""
     keys = {pair.key for pair in here.scene.whole.slides}
-    return [one for one in here.sliders if one.slide.key in keys]
+    return [slider for slider in here.sliders if slider.slide.key in keys]
 
 
 def _off_pivot(here: MechanismOnPaper, room: DimensionClearance, slider: Slider) -> Parts | None:
@@ -365,15 +365,15 @@ def _off_pivot(here: MechanismOnPaper, room: DimensionClearance, slider: Slider)
     nearest = min(distances, key=lambda p: (distances[p], p))
     pivot = here.places[nearest]
     offset = (guide.through - frame.points[nearest]) / here.scene.units.metres
-    for way, given in ((1j, offset.imag), (1 + 0j, offset.real)):
-        if abs(given) < LEVEL or abs(offset - given * way) > LEVEL * abs(offset):
+    for axis, given in ((1j, offset.imag), (1 + 0j, offset.real)):
+        if abs(given) < LEVEL or abs(offset - given * axis) > LEVEL * abs(offset):
             continue  # the problem gives no distance straight from the pivot
-        foot = pivot + given * way * here.scene.units.metres / here.sheet.scales.length
+        foot = pivot + given * axis * here.scene.units.metres / here.sheet.scales.length
         end = min((slider.at + s * GUIDE_LENGTH / 2 * slider.along for s in (1, -1)), key=lambda z: abs(z - foot))
         along = (Line.between(end, foot, strokes.DIMENSION),) if abs(end - foot) > SHORTEST else ()
-        found = _apart(room, (pivot,), (foot,), way, abs(given), also=along)
-        if found is not None:
-            return found
+        parts = _apart(room, (pivot,), (foot,), axis, abs(given), also=along)
+        if parts is not None:
+            return parts
     end = GUIDE_LENGTH / 2 * slider.along
     spots = (slider.at - end, slider.at + end)
     return _apart(room, (pivot,), spots, slider.along * 1j, distances[nearest] / here.scene.units.metres)
@@ -385,15 +385,15 @@ def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:
     runs = rich(f"{number(abs(angle), 5)}°", SIZE)
     choices = []
     for sense in (1, -1):
-        way = sense * slider.along
-        level = math.copysign(1.0, way.real)
+        along = sense * slider.along
+        level = math.copysign(1.0, along.real)
         start = 0.0 if level > 0 else math.pi
-        corner = on_page(slider.at + (GUIDE_LENGTH / 2 + 0.5) * way)
+        corner = on_page(slider.at + (GUIDE_LENGTH / 2 + 0.5) * along)
         for radius in _seen(RADII, math.radians(angle)) or RADII[-1:]:
             further = radius + OVERRUN
             choices.append((
                 Line(corner, corner + further * level, strokes.DIMENSION),
-                Line(corner, corner + further * on_page(way), strokes.DIMENSION),
+                Line(corner, corner + further * on_page(along), strokes.DIMENSION),
                 *angle_dimension(corner, radius, start, start + math.radians(angle), runs),
             ))
     return room.take(choices, 2, ends_on_line=True)
@@ -415,8 +415,8 @@ def _on_link(
                 tried.append(_apart(room, *ends, along, abs(z.real) / metres))
                 tried.append(_apart(room, *ends, along * 1j, abs(z.imag) / metres))
     if len(pairs) == 2:
-        ways = [pose.axis / pair.turn for pair in pairs]
-        tried.append(_guide_angle(room, pose.origin, ways[0], ways[1]))
+        axes = [pose.axis / pair.turn for pair in pairs]
+        tried.append(_guide_angle(room, pose.origin, axes[0], axes[1]))
     elif pairs and abs(pairs[0].turn.imag) > LEVEL and (  # its own axis is drawn: as a bar, or as a guide in use
         len(link.bar) == 2 or any(s.slide.b == link.name and not s.slide.guide.name for s in shown)
     ):
@@ -437,21 +437,21 @@ def _on_link(
     yield from (parts for parts in tried if parts is not None)
 
 
-def _guide_angle(room: DimensionClearance, at: complex, one: complex, other: complex) -> Parts | None:
+def _guide_angle(room: DimensionClearance, at: complex, first: complex, second: complex) -> Parts | None:
     """The angle between two lines through a place, drawn from the first to the second the shorter way."""
-    turn = phase(other / one)
+    turn = phase(second / first)
     if abs(turn) > math.pi / 2 + LEVEL:  # between the lines, the smaller angle
-        one, turn = -one, turn - math.copysign(math.pi, turn)
-    return _turned(room, on_page(at), (phase(one), phase(-one)), turn, RADII)
+        first, turn = -first, turn - math.copysign(math.pi, turn)
+    return _turned(room, on_page(at), (phase(first), phase(-first)), turn, RADII)
 
 
 def _apart(
-    room: DimensionClearance, ones: Sequence[complex], others: Sequence[complex], along: complex, value: float,
+    room: DimensionClearance, starts: Sequence[complex], ends: Sequence[complex], along: complex, value: float,
     runs: tuple[Run, ...] = (), also: Parts = (),
 ) -> Parts | None:
     """The distance of two places in a direction, y up, each measured from the nearest of some spots on its level; with
     its further strokes."""
-    spots, along = [[(on_page(z), 0.0) for z in each] for each in (ones, others)], on_page(along)
+    spots, along = [[(on_page(z), 0.0) for z in each] for each in (starts, ends)], on_page(along)
     aside = -1j * along
     levels = [dot(each[0][0], along) for each in spots]
     if abs(levels[1] - levels[0]) < SHORTEST:

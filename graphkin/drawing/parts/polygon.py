@@ -389,9 +389,9 @@ def ring_numerals(rings: Iterable[Group], around: Obstacles, panel: Box) -> Piec
         classes, since = ("label", "ring"), ring.since
         text = Text(0j, plain(roman(order), NUMERAL), id=f"label-{ring.id}", classes=classes, since=since)
         box = text_box(text)
-        found = beside_ring(box, circle.centre, circle.radius, around, panel)
-        if found is not None:
-            middle, leader = found
+        place = beside_ring(box, circle.centre, circle.radius, around, panel)
+        if place is not None:
+            middle, leader = place
             led = (Group((Line(*leader, strokes.LEADER),), since=since),) if leader else ()
             pieces.append(Piece({"labels": (*led, text._replace(at=middle - box.centre))}))
             around += obstacles_of(pieces[-1].drawn)
@@ -513,9 +513,9 @@ def _name(here: PolygonOnPage, group: Sequence[Vector], letters: Mapping[complex
         unit, sizes = unit_of(here.sheet, here.diagram), dict[str, list[RichText]]()
         for vector in vectors:
             size = number(abs(vector.span) * here.sheet.scales.of(here.diagram) / unit.si, 4)
-            told = f" = {size} {unit.written}" if vector.span else ""
-            sizes.setdefault(told, []).append(here.letters.vector(vector.symbol))
-        name = spaced(", ", (spaced(sign(" = "), same) + (told or sign(" = 0")) for told, same in sizes.items()))
+            amount = f" = {size} {unit.written}" if vector.span else ""
+            sizes.setdefault(amount, []).append(here.letters.vector(vector.symbol))
+        name = spaced(", ", (spaced(sign(" = "), same) + (amount or sign(" = 0")) for amount, same in sizes.items()))
         return Label.of(rich(name, LETTER), here.at(first.tip), id, rank=3, since=step, key=step_number(step))
     name = spaced(sign(" = "), (here.letters.arrow(v.symbol) for v in vectors))
     resultants = all(v.role == "resultant" for v in vectors)

@@ -80,8 +80,8 @@ def choose_modes(structure: Structure, turned: Collection[int] = (), upto: int |
         elif isinstance(element, Driven):
             if element.rolled is not None:
                 state = own_position(structure, modes, i)
-                own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.rolled.factors]
-                modes[i] = np.repeat(own, 2)
+                readings = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.rolled.factors]
+                modes[i] = np.repeat(readings, 2)
             if structure.scene.drawn:  # one place alone, which must be the drawn one
                 state = own_position(structure, modes, i + 1)
                 pick(structure.scene, (element.link,), [new_places(structure, i, (element.link,), state.poses)], 0)
@@ -129,8 +129,8 @@ def _choose_sign(
         return np.array(sign), both[sign < 0]
     if not solved.discriminant[0] >= -TOUCH:
         named = named_with_contact(structure, dyad)
-        way = _other_way(structure, i, modes) or _nearest(structure, i, modes)
-        raise Unsolvable("not assembled", Problem(named, "they do not reach each other in the", way))
+        remedy = _other_way(structure, i, modes) or _nearest(structure, i, modes)
+        raise Unsolvable("not assembled", Problem(named, "they do not reach each other in the", remedy))
     if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0), both[0]
     candidates = [new_places(structure, i, links, state.poses) for state in states]
@@ -166,12 +166,12 @@ def _nearest(structure: Structure, i: int, modes: Mapping[int, Array]) -> Wordin
 
     if not all(e.explicit for e in structure.elements[:i]):
         return ""
-    first, own = structure.scene.drivers[0], own_values(structure.scene)
-    value = float(own[0])
+    first, values = structure.scene.drivers[0], own_values(structure.scene)
+    value = float(values[0])
     wide = np.pi if first.turns else 2 * structure.scene.size
     signs = {j: float(mode) for j, mode in modes.items()} | {i: 1.0}
-    found = assembled(Path.of_driver(structure, own), [*signs], value - wide, value + wide, signs)
-    ends = [end for _, stretch in found for end in (stretch.low, stretch.high)]
+    parts = assembled(Path.of_driver(structure, values), [*signs], value - wide, value + wide, signs)
+    ends = [end for _, stretch in parts for end in (stretch.low, stretch.high)]
     if not ends:
         return Phrase("no value of the driver assembles them with")
     near = driver_text(structure.scene, first, min(ends, key=lambda end: abs(end - value)))
@@ -182,13 +182,13 @@ def _choose_place(structure: Structure, i: int, group: LargerGroup, before: Stat
     """All assemblies of a larger group by Newton's method from many starts, and the scene's own one; ``before`` is the
     mechanism up to it."""
     drive, known = before.drive, before.poses
-    found = _assemblies(structure, group, drive, known)
-    if not len(found):
+    places = _assemblies(structure, group, drive, known)
+    if not len(places):
         raise Unsolvable("not assembled", Problem(group.named,
                                                   "no assembly of this group was found in"))
-    placed = [{**known, **Constraints(structure, group, known, drive).poses(place[None])} for place in found]
+    placed = [{**known, **Constraints(structure, group, known, drive).poses(place[None])} for place in places]
     candidates = [new_places(structure, i, group.links, poses) for poses in placed]
-    return np.asarray(found[pick(structure.scene, group.links, candidates, None)])
+    return np.asarray(places[pick(structure.scene, group.links, candidates, None)])
 
 
 def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: Mapping[str, Pose]) -> Array:
@@ -199,8 +199,8 @@ def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: M
     near = np.flatnonzero(residual < NEAR)
     if not len(near):
         return np.zeros((0, len(group.members), 3))
-    found = _apart(place, near[np.argsort(residual[near] >= FOUND, kind="stable")], structure.scene.size, SAME / 4)
-    solved = solve_group(structure, group, known, drive[np.zeros_like(found)], place[found], rates=False)
+    rows = _apart(place, near[np.argsort(residual[near] >= FOUND, kind="stable")], structure.scene.size, SAME / 4)
+    solved = solve_group(structure, group, known, drive[np.zeros_like(rows)], place[rows], rates=False)
     return _distinct(structure, group, solved)
 
 
@@ -241,14 +241,14 @@ def _apart(place: Array, rows: Array, size: float, least: float) -> Array:
     """The first row of each place, in the order of the rows: places are distinct if links differ by at least ``least``
     (of the size, rad)."""
     turned = np.exp(1j * place[..., 2])
-    found: list[int] = []
+    kept: list[int] = []
     while len(rows):
         first = rows[0]
-        found.append(int(first))
+        kept.append(int(first))
         distance = np.hypot(*np.moveaxis(place[rows, :, :2] - place[first, :, :2], 2, 0)) / size
         far = np.maximum(distance, np.abs(turned[rows] - turned[first])).max(axis=1)
         rows = rows[far >= least]
-    return np.array(sorted(found), dtype=int)
+    return np.array(sorted(kept), dtype=int)
 
 
 def _starts(structure: Structure, group: LargerGroup, known: Mapping[str, Pose]) -> Array:

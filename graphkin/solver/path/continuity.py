@@ -91,9 +91,9 @@ def _walk_group(
         there, new_slope = at(t + step, guess)
         misfit = float(np.max(np.abs((there.place[0] - guess) / weight)))
         moved = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
-        found = there.residual[0] < CLOSE and bool(np.all(np.isfinite(new_slope)))
+        closed = there.residual[0] < CLOSE and bool(np.all(np.isfinite(new_slope)))
         steady = _bend(slope / root, new_slope, weight) < BEND
-        good = found and misfit < min(0.03, 0.003 + 0.3 * moved) and (steady or there.same_assembly(places[-1]))
+        good = closed and misfit < min(0.03, 0.003 + 0.3 * moved) and (steady or there.same_assembly(places[-1]))
         if good and np.sign(there.determinant[0]) != sense:
             passed = _passed(at, t, places[-1], slope, step, there, new_slope, weight)
             if passed is not None:
@@ -184,27 +184,27 @@ def _passed(
         middle = (low + high) / 2
         if (high - low) * step < NARROW / 8:
             break
-        found, _ = at(t + middle * step, between(middle))
-        if not found.residual[0] < CLOSE:
+        solved, _ = at(t + middle * step, between(middle))
+        if not solved.residual[0] < CLOSE:
             # so close to the point, or in a gap: the sides decide
             break
-        low, high = (middle, high) if np.sign(found.determinant[0]) == sign else (low, middle)
+        low, high = (middle, high) if np.sign(solved.determinant[0]) == sign else (low, middle)
     flip = (low + high) / 2
     sides: list[tuple[float, Array]] = []
     far = max(high - low, NARROW / step)
     for s in (flip - 30 * far, flip - far, flip + far, flip + 30 * far):
         if not 0 < s < 1:
             continue
-        found, _ = at(t + s * step, between(s))
-        misfit = np.max(np.abs((found.place[0] - between(s)) / weight))
+        solved, _ = at(t + s * step, between(s))
+        misfit = np.max(np.abs((solved.place[0] - between(s)) / weight))
         expected = sign if s < flip else -sign
         if (
-            not found.residual[0] < CLOSE
+            not solved.residual[0] < CLOSE
             or misfit > 1e-3 * abs(s - flip) * step + 1e-7
-            or (np.sign(found.determinant[0]) != expected)
+            or (np.sign(solved.determinant[0]) != expected)
         ):
             return None
-        sides.append((t + s * step, found.place[0]))
+        sides.append((t + s * step, solved.place[0]))
     if (high - low) * step > NARROW or len(sides) < 2:
         return None
     return t + flip * step, sides
@@ -250,8 +250,8 @@ def _steps(structure: Structure, span: Array) -> int:
 
 def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
     """A path with the assembly mode of a dyad, which changes at change points, up to the dyad's end."""
-    found = [s for s in stretches(path.with_sign(i, sign), i, 0.0, path.reach) if s.low <= START]
-    first = found[0] if found else Stretch(0.0, 0.0, (False, True))
+    parts = [s for s in stretches(path.with_sign(i, sign), i, 0.0, path.reach) if s.low <= START]
+    first = parts[0] if parts else Stretch(0.0, 0.0, (False, True))
     limit = first.high if first.ends[1] else None
     flips = np.sort([*first.touches, *_without_leg(path.with_sign(i, sign), i, dyad, first)])
     if dyad.is_two_lines and len(flips):
@@ -303,8 +303,8 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
 def _follow_group(path: Path, i: int, place: Array) -> Path:
     def solved(t: float, start: Array) -> tuple[GroupSolved, Array]:
         t_ = path.off_flips(np.array([t]))
-        found = group_at(path.structure, path.drive(t_), {**path.mode(t_), i: start[None]}, i)
-        return found, found.slope
+        group = group_at(path.structure, path.drive(t_), {**path.mode(t_), i: start[None]}, i)
+        return group, group.slope
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, GROUP_STEP / TURN_STEP / steps)

@@ -66,14 +66,14 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     driver = structure.scene.drivers[0]
     wide = (1 + MARGIN) * driver.span(structure.scene.size) * (math.pi if driver.turns else FAR)
     path, dyads = Path.of_driver(structure, np.zeros(1)), [*structure.dyads][:MOST_GROUPS]
-    found: list[DeadPoint] = []
+    points: list[DeadPoint] = []
     for k, i in enumerate(dyads):
-        own = _of_group(path, dyads[:k], i, near - wide, near + wide, {})
-        for point in sorted(own, key=lambda p: [-sign for sign in p.signs.values()]):
-            alike = (p for p in found if p.element == i and p.signs == point.signs)
+        candidates = _of_group(path, dyads[:k], i, near - wide, near + wide, {})
+        for point in sorted(candidates, key=lambda p: [-sign for sign in p.signs.values()]):
+            alike = (p for p in points if p.element == i and p.signs == point.signs)
             if all(abs(driver.wrapped(float(p.value - point.value))) >= SAME for p in alike):
-                found.append(point)
-    return found
+                points.append(point)
+    return points
 
 
 def _of_group(
@@ -147,10 +147,10 @@ def without_singular(
     _beyond_limits(structure, state, values, modes, status, reasons)
     for i, dead in singular(structure, state, len(status)):
         for k in np.flatnonzero(dead & (status == "ok")):
-            own = {j: f[k : k + 1] for j, f in modes.items()}
-            why_open = _apart(structure, i, values[k], own)
+            mode = {j: f[k : k + 1] for j, f in modes.items()}
+            why_open = _apart(structure, i, values[k], mode)
             status[k] = "not assembled" if why_open else "dead point"
-            reasons[k] = why_open or _dead_why(structure, i, values[k], own)
+            reasons[k] = why_open or _dead_why(structure, i, values[k], mode)
     return status, reasons
 
 
@@ -172,11 +172,11 @@ def _beyond_limits(
         near = np.flatnonzero((np.abs(discriminant) < CLOSE) & (status == "ok"))
         if not len(near):
             continue
-        own = {j: np.broadcast_to(f, (n, *np.shape(f)[1:]))[near] for j, f in modes.items() if j <= i}
+        mode = {j: np.broadcast_to(f, (n, *np.shape(f)[1:]))[near] for j, f in modes.items() if j <= i}
         if not all(e.explicit for e in structure.elements[:i]):
             side, left_open = np.where(discriminant[near] < 0, -1, 1), np.zeros(len(near), dtype=bool)
         else:
-            side, left_open = closes(structure, i, own, Drive.at_unit_rates(values[near]))
+            side, left_open = closes(structure, i, mode, Drive.at_unit_rates(values[near]))
         for k, s, either in zip(near.tolist(), side.tolist(), left_open.tolist(), strict=True):
             here = {j: f[k : k + 1] for j, f in modes.items() if j <= i}
             if s < 0:
@@ -250,12 +250,12 @@ def _dead_why(structure: Structure, i: int, values: Array, modes: Mapping[int, A
 
 def _stands_alone(structure: Structure, i: int, values: Array, modes: Mapping[int, Array]) -> bool:
     """Whether dyad ``i`` assembles at a value of the only driver, but not a hundredth (rad, of the size) beside it."""
-    driver, one = structure.scene.drivers[0], np.ones((2, 1))
+    driver, rate = structure.scene.drivers[0], np.ones((2, 1))
     if len(values) > 1:
         return False
     beside = values + BESIDE * driver.span(structure.scene.size) * np.array([[-1.0], [1.0]])
     there = {j: np.repeat(f, 2, axis=0) for j, f in modes.items()}
-    solved = positions(structure, Drive(beside, one, 0 * one), there, i + 1, rates=False).groups[i]
+    solved = positions(structure, Drive(beside, rate, 0 * rate), there, i + 1, rates=False).groups[i]
     assert isinstance(solved, DyadSolution)
     return bool(np.all(np.asarray(solved.discriminant) < -OPEN))
 
@@ -268,8 +268,8 @@ def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wor
         return ""
     u, sigma, free = np.linalg.svd(solved.matrix[0])
     place = solved.place[:, : len(solved.system.group.members)]
-    way = ASIDE * solved.system.scaled(free[None, -1])
-    ahead, behind = (solved.system.matrix(solved.system.at(place + side))[0] for side in (way, -way))
+    shift = ASIDE * solved.system.scaled(free[None, -1])
+    ahead, behind = (solved.system.matrix(solved.system.at(place + side))[0] for side in (shift, -shift))
     second = float(u[:, -1] @ (ahead - behind) @ free[-1]) / (4 * ASIDE)
     distance = float(sigma[-1] ** 2 / (4 * second * (u[:, -1] @ solved.right_side[0])))
     return lies_at(structure, float(values[0]) + distance, abs(distance), about=True)
@@ -285,8 +285,8 @@ def _where(structure: Structure, i: int, values: Array, modes: Mapping[int, Arra
     driver, value = structure.scene.drivers[0], float(values[0])
     signs = {j: float(np.ravel(f)[0]) for j, f in modes.items() if j in structure.dyads and j < i}
     near = BESIDE * driver.span(structure.scene.size)
-    found = _of_group(Path.of_driver(structure, np.zeros(1)), [*signs], i, value - near, value + near, signs)
-    point = min(found, key=lambda p: abs(float(p.value) - value), default=None)
+    points = _of_group(Path.of_driver(structure, np.zeros(1)), [*signs], i, value - near, value + near, signs)
+    point = min(points, key=lambda p: abs(float(p.value) - value), default=None)
     if point is None:
         return ""
     away = float(abs(point.value - meant_value(driver, value)))

@@ -196,12 +196,12 @@ class Path:
     def change_points(self) -> tuple[ChangePoint, ...]:
         """The change points on the path, at which two assemblies of a group meet and the motion continues smoothly, in
         order."""
-        found = []
-        for i, t in sorted(self.passed, key=lambda one: one[1]):
+        points = []
+        for i, t in sorted(self.passed, key=lambda passed: passed[1]):
             element = self.structure.elements[i]
             if t < self.reach and element.order > 1:
-                found.append(ChangePoint(element.links, tuple(self.values(np.array([t]))[0].tolist())))
-        return tuple(found)
+                points.append(ChangePoint(element.links, tuple(self.values(np.array([t]))[0].tolist())))
+        return tuple(points)
 
     def why_ended(self, between: tuple[float, float] | None = None) -> Phrase:
         """The reason why it ends, and the values between which the motion runs, if these are known."""
@@ -224,21 +224,21 @@ class Path:
     @cached_property
     def angles(self) -> dict[str, Array]:
         """The angle of each link at the nodes (rad), without jumps; in (-pi, pi] at the start, also in a dead point."""
-        found, n = dict[str, Array](), len(self.nodes)
+        angles, n = dict[str, Array](), len(self.nodes)
         poses = {name: pose.spread(n) for name, pose in self.placed(self.nodes).poses.items()}
         poses[self.structure.scene.frame.name] = rest().still(n)
         if any(link.redundant for link in self.structure.scene.links):
             poses |= redundant_poses(self.structure, poses, np.zeros(n, dtype=bool), EXACTLY)
         for name, pose in poses.items():
             u = np.nan_to_num(pose.u, nan=1.0)
-            found[name] = np.angle(u[0]) + turning(u)
-        return found
+            angles[name] = np.angle(u[0]) + turning(u)
+        return angles
 
     @cached_property
     def clear(self) -> Array:
         """The steps between nodes, or parts of them, in which every dyad keeps its assembly and stays away from its
         dead points: the parameters at which each begins and ends, shape (steps, 2)."""
-        nodes, found = self.nodes[self.nodes <= self.reach], list[Array]()
+        nodes, steps = self.nodes[self.nodes <= self.reach], list[Array]()
         begin, end = nodes[:-1], nodes[1:]
         for _ in range(FINEST):
             t = np.concatenate([begin, end])
@@ -249,12 +249,12 @@ class Path:
             axes = np.array([np.broadcast_to(pose.u, t.shape) for pose in solved.poses.values()])
             turn = np.abs(np.angle(axes[:, len(end) :] / axes[:, : len(end)])).max(axis=0)
             known = (sine > CLEAR * turn) & (sine > SINGULAR)
-            found.append(np.stack([begin[known], end[known]], axis=1))
+            steps.append(np.stack([begin[known], end[known]], axis=1))
             finer = np.linspace(begin[~known], end[~known], FINER + 1)
             begin, end = finer[:-1].ravel(), finer[1:].ravel()
             if not 0 < len(end) <= MOST_STEPS:
                 break
-        return np.concatenate(found)
+        return np.concatenate(steps)
 
     def drive(self, t: Array) -> Drive:
         """The drivers with rates by the path parameter."""
@@ -385,13 +385,13 @@ def assembled(
         yield path, Stretch(low, high)
         return
     i, *behind = dyads
-    group, found = path.structure.elements[i], list[Stretch]()
+    group, parts = path.structure.elements[i], list[Stretch]()
     for sign in (signs[i],) if i in signs else (1.0, -1.0):
         tried = path.with_sign(i, sign)
         # only of two lines it depends on the sign where they cross
-        found = found if found and not (isinstance(group, Dyad) and group.is_two_lines) else (
+        parts = parts if parts and not (isinstance(group, Dyad) and group.is_two_lines) else (
             stretches(tried, i, low, high))
-        for stretch in found:
+        for stretch in parts:
             if behind:
                 yield from assembled(tried, behind, stretch.low, stretch.high, signs)
             else:

@@ -70,12 +70,12 @@ def start_of(
     """The values of the drivers that are asked for, shape (drivers,), the assembly mode of each group there, the change
     points on the way to them, and the reason why the motion does not reach them, "" where it does.  Raises as
     ``choose_modes``."""
-    own, goal = own_values(structure.scene), goal_values(structure.scene, at)
+    values, goal = own_values(structure.scene), goal_values(structure.scene, at)
     modes = choose_modes(structure)
-    if np.array_equal(own, goal):
+    if np.array_equal(values, goal):
         return goal, modes, (), ""
     path = way_to(structure, modes, goal)
-    why = "" if path.limit is None else stopped_why(structure, modes, own, path)
+    why = "" if path.limit is None else stopped_why(structure, modes, values, path)
     return goal, path.last_modes, path.change_points, why
 
 
@@ -86,8 +86,8 @@ def range_from(structure: Structure, modes: Mapping[int, Array], start: Array, w
     # strokes, loads and tables of one motion ask for the same
     if structure.kept.get("range", (None,))[0] != asked:
         structure.kept["range"] = asked, _followed(structure, modes, start, which)
-    found: DriverRange = structure.kept["range"][1]
-    return found
+    reach: DriverRange = structure.kept["range"][1]
+    return reach
 
 
 def _followed(structure: Structure, modes: Mapping[int, Array], start: Array, which: int) -> DriverRange:
@@ -294,8 +294,8 @@ class DriverRange:
             return np.concatenate([since.imag, since.real], axis=1), np.zeros((len(offset), 2 * len(starts)))
 
         pieces = resolve(since_starts, *self.ends, periodic=self.full)
-        found = [at for k in range(len(starts)) for at in pieces.zeros(k) if pieces.at(at, k + len(starts)) > 0]
-        return each_once(np.array(found), *self.ends, self.full)
+        seams = [at for k in range(len(starts)) for at in pieces.zeros(k) if pieces.at(at, k + len(starts)) > 0]
+        return each_once(np.array(seams), *self.ends, self.full)
 
     def stroke(self, pair: str) -> tuple[float, float]:
         """Least and greatest travel of a sliding pair over a turn (m).  Raises Unsolvable where there is no turn."""
@@ -409,8 +409,8 @@ class DriverRange:
         offset = self.table_offsets(n)
         before: Motion | None = None
         for first in range(0, n, BLOCK):
-            found = replace(self.motion(offset[first : first + BLOCK]), passed=self.change_points)
-            before = found if before is None else found.after(before)
+            block = replace(self.motion(offset[first : first + BLOCK]), passed=self.change_points)
+            before = block if before is None else block.after(before)
             yield before
 
     def angle(self, motion: Motion, link: str) -> Array:
@@ -530,10 +530,10 @@ def _columns(motion: Motion) -> Iterator[tuple[tuple[str, str], Array]]:
     for name, pose in motion.poses.items():
         yield from (((name, field), np.broadcast_to(getattr(pose, field), len(motion))) for field in FIELDS)
     known, drive = motion.accuracy, motion.accuracy.drive
-    own = {"values": motion.values, "status": motion.status, "value": drive.value, "rate": drive.rate,
-           "second": drive.second, "slack": known.slack, "refined": known.refined, "clear": known.clear,
-           "ok": known.ok}
-    yield from ((("", name), values) for name, values in own.items())
+    common = {"values": motion.values, "status": motion.status, "value": drive.value, "rate": drive.rate,
+              "second": drive.second, "slack": known.slack, "refined": known.refined, "clear": known.clear,
+              "ok": known.ok}
+    yield from ((("", name), values) for name, values in common.items())
 
 
 def _held_once(field: str, values: Array, held: dict[tuple[str, bytes, bytes], Array]) -> Array:

@@ -34,10 +34,10 @@ def named_positions(scene: Mechanism) -> Mapping[str, float]:
         return {}
     reach = range_of(structure_of(scene))
     driver, first = reach.scene.drivers[0], first_position(reach)
-    sense, own = -1.0 if driver.values[1] < 0 else 1.0, driver.values[0]
+    sense, start = -1.0 if driver.values[1] < 0 else 1.0, driver.values[0]
     values = {name: _value(reach, positions.place(name, first, sense)) for name in positions.names}
     if driver.turns:
-        return {name: own + math.remainder(value - own, math.tau) for name, value in values.items()}
+        return {name: start + math.remainder(value - start, math.tau) for name, value in values.items()}
     return values
 
 
@@ -70,8 +70,8 @@ def _value(reach: DriverRange, place: float | StrokeStart | None) -> float:
 def name_at(scene: Mechanism, positions: Mapping[str, float], value: float) -> str:
     """The name of the position at a driver's value (rad, m), without whole turns; "" if it has none."""
     driver = scene.drivers[0]
-    for name, own in positions.items():
-        difference = math.remainder(value - own, math.tau) if driver.turns else (value - own) / scene.size
+    for name, position in positions.items():
+        difference = math.remainder(value - position, math.tau) if driver.turns else (value - position) / scene.size
         if abs(difference) < SAME:
             return name
     return ""
