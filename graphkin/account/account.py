@@ -29,8 +29,8 @@ def telling(account: Account, step: Step) -> Telling:
 
 def why(account: Account, equation: Equation, language: str) -> RichText:
     """The reasons of an equation, in sentences; empty without any."""
-    told = (account.sentence(phrase, language) for phrase in reasons(account.sheet, equation))
-    return spaced(word("between sentences", language), told)
+    sentences = (account.sentence(phrase, language) for phrase in reasons(account.sheet, equation))
+    return spaced(word("between sentences", language), sentences)
 
 
 # what is written to repeat it
@@ -53,15 +53,15 @@ def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[Writte
     shared = False  # whether the next step may go on in the line of the one before
     for step in sheet.steps:
         if step.diagram != "mechanism":  # what is measured from the mechanism stands there by now
-            ready = [one for one in lengths if to_come.isdisjoint(one[1])]
+            ready = [length for length in lengths if to_come.isdisjoint(length[1])]
             lines += [bound(line) for *_, line in ready]
-            lengths = [one for one in lengths if one not in ready]
+            lengths = [length for length in lengths if length not in ready]
         elif step.reason in TAKEN_FROM_THE_MECHANISM:
             to_come.discard(step.point)
         if step.equation is not None and step.equation not in written:
             written.add(step.equation)
             equation = sheet.equations[step.equation - 1]
-            if step.diagram not in {one.diagram for one in lines if isinstance(one, Equation)}:
+            if step.diagram not in {line.diagram for line in lines if isinstance(line, Equation)}:
                 lines += _shared_with_drivers(sheet, equation)
             if step.reason == "seen from":  # what the mark of vectors means that are seen from a held link
                 lines += account.in_each(Phrase("written seen", link=step.held), language)
@@ -71,7 +71,7 @@ def written_lines(sheet: Sheet, letters: Notation, language: str) -> list[Writte
         before = [line for line in lines[len(lines) - len(new) :] if isinstance(line, RichText)]
         if shared and step.reason in SHARE_A_LINE and len(before) == len(new):
             del lines[len(lines) - len(new) :]
-            new = [one + ";  " + line for one, line in zip(before, new, strict=True)]
+            new = [start + ";  " + line for start, line in zip(before, new, strict=True)]
         lines += new
         shared = step.reason in SHARE_A_LINE
     return lines
@@ -82,13 +82,13 @@ def _products(sheet: Sheet, equation: Equation, letters: Notation) -> list[RichT
     once; an equation that is only a rule contains its own."""
     if rule_alone(sheet, equation):
         return []
-    own = [s for s in sheet.steps if s.equation == equation.number]
-    laid_off = {s.symbol for s in own if s.reason == "before its turn" or (s.verb == "lay off" and s.mm)}
+    steps = [s for s in sheet.steps if s.equation == equation.number]
+    laid_off = {s.symbol for s in steps if s.reason == "before its turn" or (s.verb == "lay off" and s.mm)}
     arithmetic = {
-        one.symbol: rule_sum(sheet, one.size, equation.diagram)
+        term.symbol: rule_sum(sheet, term.size, equation.diagram)
         for side in equation.sides
-        for one in side
-        if one.symbol in laid_off and "0" not in factors_of(sheet, one.size)
+        for term in side
+        if term.symbol in laid_off and "0" not in factors_of(sheet, term.size)
     }
     said = [letters.vector(symbol) + " =\u00a0" + bound(text) for symbol, text in arithmetic.items() if text]
     return [spaced(";  ", said)] if said else []
@@ -98,9 +98,9 @@ def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[RichText]
     """``ω_2 = ω_1``: links that slide on a driven one turn as it does; not where its rate is a sum: that has a line."""
     kind = "omega" if equation.diagram == "velocity" else "alpha"
     rates = sheet.rates[kind]
-    told = {step.link for step in sheet.steps if step.reason == "sum of rates"}
+    summed = {step.link for step in sheet.steps if step.reason == "sum of rates"}
     for turning in rates.values():
-        if turning.vector is None and not turning.same_as and turning.value != 0.0 and turning.link not in told:
+        if turning.vector is None and not turning.same_as and turning.value != 0.0 and turning.link not in summed:
             others = alike(rates.values(), turning)
             if others:
                 yield spaced(" = ", (rate(kind, name) for name in (*others[::-1], turning.link)))
@@ -119,9 +119,9 @@ def rule_alone(sheet: Sheet, equation: Equation) -> bool:
 def reasons(sheet: Sheet, equation: Equation) -> list[Phrase]:
     """The reasons of one equation, each once."""
     terms = [term for side in equation.sides for term in side]
-    found = dict.fromkeys(phrase for term in terms for phrase in _why(sheet, equation, term))
-    found |= dict.fromkeys(phrase for term in terms if term.symbol.kind == "ak" for phrase in _coriolis(sheet, term))
-    return list(found)
+    phrases = dict.fromkeys(phrase for term in terms for phrase in _why(sheet, equation, term))
+    phrases |= dict.fromkeys(phrase for term in terms if term.symbol.kind == "ak" for phrase in _coriolis(sheet, term))
+    return list(phrases)
 
 
 def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
@@ -195,14 +195,14 @@ def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
     for slide in sheet.structure.slides:
         holder, body = (sheet.structure.links.get(name) for name in (slide.a, of.link))
         held = not of.link or of.link == slide.a or (body is not None and of.point in body.points)
-        own = of.link == slide.a or (holder is not None and of.point in (slide.pin, *holder.points))
-        if slide.b == frame.name and holder is not None and held and own:
+        on_slide = of.link == slide.a or (holder is not None and of.point in (slide.pin, *holder.points))
+        if slide.b == frame.name and holder is not None and held and on_slide:
             yield Phrase("why runs", point=of) if slide.higher else Phrase("why guided", point=of, link=slide.a)
             return
     for link in sheet.scene.links:
         pivot = next(iter(sheet.scene.pivots(link.name)), None)
-        own = of.link == link.name or (not of.link and of.point in link.points)
-        if own and pivot is not None and pivot != of.point and symbol.kind == "v":
+        on_link = of.link == link.name or (not of.link and of.point in link.points)
+        if on_link and pivot is not None and pivot != of.point and symbol.kind == "v":
             yield Phrase("why turning", point=of, pivot=PointNames((pivot,)), link=link.name)
             return
     under = next((s for s in sheet.structure.slides if s.pin == of.point and of.link in (s.a, s.b)), None)

@@ -82,15 +82,15 @@ def lengths_measured(
         for bar in _bars_of(step, images):
             if not is_given(sheet, bar):
                 bars.setdefault(frozenset(bar), (step.number, bar))
-    for step_number, (one, other) in bars.values():
-        pushed = pushed_by_driver(sheet.structure, sheet.drivers, (one, other))
+    for step_number, bar in bars.values():
+        pushed = pushed_by_driver(sheet.structure, sheet.drivers, bar)
         if pushed is not None:
             driver, far = pushed
             value = f"{printed(as_given(far / sheet.scene.units.metres))} {sheet.scene.units.length}"
             length = sign("s", slide_index(sheet, driver.key)) + f" = {value}"
         else:
-            length = RichText(times_scale(sheet, "mechanism", sheet.arm_mm((one, other)) or 0.0))
-        yield step_number, (one, other), letters.length((one, other)) + " = " + length
+            length = RichText(times_scale(sheet, "mechanism", sheet.arm_mm(bar) or 0.0))
+        yield step_number, bar, letters.length(bar) + " = " + length
 
 
 def _bars_of(step: Step, images: bool) -> Iterator[tuple[str, str]]:
@@ -121,7 +121,7 @@ def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
     divided = _divided(sheet, step)
     if divided is None:
         return ""
-    size, arm, value = (printed(one) for one in divided)
+    size, arm, value = (printed(text) for text in divided)
     unit = unit_of(sheet, step.diagram).written
     of, over = (f" {unit}", f" {sheet.scene.units.rates.length}") if units else ("", "")
     return f"{size}{of} / {arm}{over} = {value} {step.unit}"
@@ -131,12 +131,12 @@ def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
     """The numbers of a measured rate as they are written: size, length and quotient; None without them."""
     diagram = step.diagram
     if step.held:
-        drawn = (abs(one.span) for one in sheet.vectors_seen(step.diagram) if one.symbol == step.symbol)
+        drawn = (abs(vector.span) for vector in sheet.vectors_seen(step.diagram) if vector.symbol == step.symbol)
         mm, arm_mm, rate = _as_read(sheet, step.symbol, next(drawn, 0.0)), sheet.arm_mm(step.points), step.value
     else:
-        found = sheet.rates[step.kind][step.link]
-        arm_mm = sheet.readings.get(frozenset(step.points), found.arm / sheet.scales.length)
-        mm, rate = found.mm, found.value
+        turning = sheet.rates[step.kind][step.link]
+        arm_mm = sheet.readings.get(frozenset(step.points), turning.arm / sheet.scales.length)
+        mm, rate = turning.mm, turning.value
     if mm == 0.0 or not arm_mm:
         return None
     carried = figures(on_paper(mm))
@@ -176,16 +176,16 @@ def divisions(sheet: Sheet, divided: Step) -> list[Division]:
     """The division that gives each rate from its first assumed value and the step to its other trial: by the gaps of
     the two trials for a single assumed rate, else by the parts of the steps that close all gaps."""
     trials = trials_of(sheet, divided)
-    found = []
+    quotients = []
     for i, (_, rate) in enumerate(divided.rates):
         low = trials[0].rates[i][1]
         more = trials[i + 1].rates[i][1] - low
         start, size = amount(low, MOST), amount(abs(more), MOST)
         if len(divided.rates) == 1:
-            one, two = (on_paper(row[0]) for row in divided.apart)
-            over, under = on_paper(abs(divided.apart[0][0])), on_paper(float(difference(one, two)))
-            less, most = (printed(mm) for mm in sorted((one.lstrip("-"), two.lstrip("-")), key=float))
-            whole = f"({less} + {most})" if one.startswith("-") != two.startswith("-") else f"({most} − {less})"
+            first, second = (on_paper(row[0]) for row in divided.apart)
+            over, under = on_paper(abs(divided.apart[0][0])), on_paper(float(difference(first, second)))
+            less, most = (printed(mm) for mm in sorted((first.lstrip("-"), second.lstrip("-")), key=float))
+            whole = f"({less} + {most})" if first.startswith("-") != second.startswith("-") else f"({most} − {less})"
             if under == "0":  # the trials differ by less than a ruler shows
                 under = amount(abs(divided.apart[0][0] - divided.apart[1][0]), 3)
                 whole = printed(under)
@@ -200,8 +200,8 @@ def divisions(sheet: Sheet, divided: Step) -> list[Division]:
         value = finer if by_hand else increased(start, f"-{added}" if falls else added)
         exact = "" if finer == value else f" ({printed(finer)})"
         terms = f"{printed(start)} {'−' if falls else '+'} {part} × {printed(size)}"
-        found.append(Division(terms, printed(value) + exact, ("" if falls == (more < 0.0) else "−") + part))
-    return found
+        quotients.append(Division(terms, printed(value) + exact, ("" if falls == (more < 0.0) else "−") + part))
+    return quotients
 
 
 def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int, most: int) -> str:
@@ -244,7 +244,7 @@ def carried_by(sheet: Sheet, rule: Size | None) -> int:
         read.append(on_paper(_span(sheet, rule.factor) or 0.0))
     elif not is_given(sheet, rule.factor):
         read.append(on_paper(sheet.arm_mm(rule.factor) or 0.0))
-    return min((figures(one) for one in read if one and one != "0"), default=MOST)
+    return min((figures(text) for text in read if text and text != "0"), default=MOST)
 
 
 def _rate_read(sheet: Sheet, rule: Size) -> str:
@@ -254,8 +254,8 @@ def _rate_read(sheet: Sheet, rule: Size) -> str:
     rate = sheet.rates[rule.rate][rule.links[0]]
     link = rate.same_as or rate.link
     read = (s for s in sheet.steps if s.reason == "rate" and not s.held)
-    own = next((step for step in read if (step.kind, step.link) == (rule.rate, link)), None)
-    divided = None if own is None or abs(own.value) != abs(rate.value) else _divided(sheet, own)
+    measured = next((step for step in read if (step.kind, step.link) == (rule.rate, link)), None)
+    divided = None if measured is None or abs(measured.value) != abs(rate.value) else _divided(sheet, measured)
     return "" if divided is None else divided[2]
 
 
@@ -288,7 +288,7 @@ def _span(sheet: Sheet, symbol: Symbol) -> float | None:
     """The length of a drawn velocity (mm), as read by a finite instrument."""
     drawn = sheet.vectors["velocity"].get(symbol)
     if drawn is None:
-        drawn = next((one for one in sheet.vectors_seen("velocity") if one.symbol == symbol), None)
+        drawn = next((vector for vector in sheet.vectors_seen("velocity") if vector.symbol == symbol), None)
     return None if drawn is None else _as_read(sheet, symbol, abs(drawn.span))
 
 

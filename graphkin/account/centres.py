@@ -77,15 +77,15 @@ def velocity_sentences(centres: Centres) -> tuple[Phrase, ...]:
         nothing = abs(turning.omega) <= max(STILL * largest, min(error, SURE * largest))  # but rounding
         driver = None if nothing or len(turning.chain) > 1 else _between_moving(centres, turning)
         chain = driver.links if driver else turning.chain  # from the driven link, through their common centre
-        told = None
+        entry = None
         if driver and turning.link == driver.link:
-            told = _of_driver(centres, turning, driver)
+            entry = _of_driver(centres, turning, driver)
         elif len(chain) > 1:
-            told = _of_link(turning, chain[-2], rates[chain[-2]], _three(centres, *chain[-2:]), nothing)
-        if told is None:
+            entry = _of_link(turning, chain[-2], rates[chain[-2]], _three(centres, *chain[-2:]), nothing)
+        if entry is None:
             rates[turning.link] = _Rate("0" if nothing else amount(turning.omega))
         else:
-            rates[turning.link], of_links[turning.link] = told
+            rates[turning.link], of_links[turning.link] = entry
     links = [of_links[name] for name in moving if name in of_links]
     asked = [s for s in centres.scene.question.find if s.kind == "v" and s.to is None]
     wanted = asked if centres.scene.question.find else centres.moving_pins

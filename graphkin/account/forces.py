@@ -129,7 +129,7 @@ class InForces(Telling):
 
     def work_in(self, language: str) -> tuple[RichText, ...]:
         """Its sums, in the languages of a paper."""
-        return tuple(line for told in self.sums for line in in_all(told, language))
+        return tuple(line for wording in self.sums for line in in_all(wording, language))
 
     @property
     def sums(self) -> Sequence[Wording]:
@@ -246,8 +246,8 @@ class InForces(Telling):
         values = lever.value if moment else abs(lever.value), lever.by_polygons
         unit = units.force + ("·m" if moment else "")
         by_lever, by_polygons = (f"{number(v / units.newtons, MOST)} {unit}" for v in values)
-        told = Neutral(self.name(self.step.symbol), f" = {by_lever}")
-        yield Phrase("lever balance", lever=told, polygons=Neutral(by_polygons))
+        balance = Neutral(self.name(self.step.symbol), f" = {by_lever}")
+        yield Phrase("lever balance", lever=balance, polygons=Neutral(by_polygons))
 
     sums_of: ClassVar[Mapping[Reason, Callable[[InForces], Iterable[Wording]]]] = {
         "inertia": _inertia, "known forces": _laid, "all moments": _balanced,
@@ -291,7 +291,7 @@ class ForceStage:
 
     def told(self, *reasons: Reason) -> list[Wording]:
         """The sentences of steps for some reasons, each with its sums."""
-        return [line for told in self.steps if told.step.reason in reasons for line in (told.said, *told.sums)]
+        return [line for force in self.steps if force.step.reason in reasons for line in (force.said, *force.sums)]
 
 
 def force_stages(account: Account) -> Iterator[ForceStage]:
@@ -301,20 +301,20 @@ def force_stages(account: Account) -> Iterator[ForceStage]:
         return
     first, *others = states
     if account.sheet.inertias:
-        told = told_of(account, account.sheet.inertias.values())
-        yield ForceStage("acceleration", Phrase("force inertia"), told, first)
+        steps = told_of(account, account.sheet.inertias.values())
+        yield ForceStage("acceleration", Phrase("force inertia"), steps, first)
     if account.sheet.springs:
-        told = told_of(account, account.sheet.springs)
-        yield ForceStage("mechanism", Phrase("force step springs"), told, first)
+        steps = told_of(account, account.sheet.springs)
+        yield ForceStage("mechanism", Phrase("force step springs"), steps, first)
     shown = [(first, group) for group in first.groups]
     shown += [(state, group) for state in others for group in state.groups if group not in first.groups]
     for count, (state, group) in enumerate(shown, 1):
-        told = told_of(account, group.steps, group)
-        yield ForceStage("forces", caption(account, group, count), told, state, group, state is not first)
+        steps = told_of(account, group.steps, group)
+        yield ForceStage("forces", caption(account, group, count), steps, state, group, state is not first)
     for state in states:
         for lever in state.levers:
-            told = told_of(account, lever.steps, lever=lever)
-            yield ForceStage("lever", Phrase("lever"), told, state, again=state is not first)
+            steps = told_of(account, lever.steps, lever=lever)
+            yield ForceStage("lever", Phrase("lever"), steps, state, again=state is not first)
 
 
 def told_of(

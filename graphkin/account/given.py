@@ -38,18 +38,18 @@ def given_drivers(sheet: Sheet, letters: Notation) -> list[RichText]:
     """The moment, and values of drivers with their rates."""
     scene = sheet.scene
     moment = moment_of(scene)
-    told = [] if moment is None else [sign("t") + f" = {number(moment)} s"]
+    lines = [] if moment is None else [sign("t") + f" = {number(moment)} s"]
     for driver in scene.drivers:
-        told.append(_stands(sheet, driver, sheet.drivers[driver.key]))
+        lines.append(_stands(sheet, driver, sheet.drivers[driver.key]))
         if driver.turns and driver.rpm is not None and math.isclose(driver.rpm * math.pi / 30, driver.rate):
-            told.append(sign("n", _index(sheet, driver)) + f" = {number(driver.rpm)} r/min")
+            lines.append(sign("n", _index(sheet, driver)) + f" = {number(driver.rpm)} r/min")
         for kind, value in zip(("omega", "alpha") if driver.turns else ("v", "a"), driver.values[1:], strict=True):
             unit = Symbol(kind, link=driver.link).unit(scene.units)
             if value or kind in ("omega", "v"):
                 letter = kind.upper() if letters.convention == "us" else kind
                 name = (rate if driver.turns else sign)(kind if driver.turns else letter, _index(sheet, driver))
-                told.append(name + f" = {unit.beside(number(unit.of(value)))}")
-    return told
+                lines.append(name + f" = {unit.beside(number(unit.of(value)))}")
+    return lines
 
 
 def drivers(sheet: Sheet, letters: Notation) -> RichText:
@@ -60,22 +60,22 @@ def drivers(sheet: Sheet, letters: Notation) -> RichText:
 def rolling_starts(sheet: Sheet) -> list[RichText]:
     """The starts of links that move each other by rolling, at the scene's position: ``φ_3 = 60° (φ_1 = 50°)``."""
     scene, parts = sheet.scene, []
-    own = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
+    starts = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
     for group in sheet.structure.elements:
         for driver in group.starts:
             value = driver.values[0]
             if driver.turns:  # from what never turns
                 value = cmath.phase(sheet.poses[driver.relative_to].axis * cmath.rect(1.0, value))
                 driver = replace(driver, relative_to=scene.frame.name)
-            parts.append(_stands(sheet, driver, value) + " (" + spaced(", ", own) + ")")
+            parts.append(_stands(sheet, driver, value) + " (" + spaced(", ", starts) + ")")
     return parts
 
 
 def rolled_starts(sheet: Sheet) -> list[RichText]:
     """The starts of links that only follow by rolling, as in `rolling_starts`; none of a wheel with only its axis."""
     scene = sheet.scene
-    own = spaced(", ", (_stands(sheet, driver, driver.values[0]) for driver in scene.drivers))
-    told = []
+    starts = spaced(", ", (_stands(sheet, driver, driver.values[0]) for driver in scene.drivers))
+    lines = []
     for element in sheet.structure.elements:
         if not isinstance(element, Driven):
             continue
@@ -88,8 +88,8 @@ def rolled_starts(sheet: Sheet) -> list[RichText]:
         if not driver.turns or len(sheet.structure.links[element.link].points) > 1 or _axis_counts(
             scene.whole, scene.by_name[element.link]
         ):
-            told.append(_stands(sheet, driver, driver.value) + " (" + own + ")")
-    return told
+            lines.append(_stands(sheet, driver, driver.value) + " (" + starts + ")")
+    return lines
 
 
 def _stands(sheet: Sheet, driver: Driver, value: float) -> RichText:
@@ -114,21 +114,21 @@ def slide_index(sheet: Sheet, key: str) -> str:
 
 def given_lengths(scene: Mechanism, letters: Notation) -> list[tuple[RichText, str]]:
     """The given lengths of all links: symbol and value in the scene's unit, as it is given."""
-    found: list[tuple[RichText, float]] = []
+    lengths: list[tuple[RichText, float]] = []
     for link in scene.links:
         if link.length is not None:
-            found.append((letters.length(link.bar), link.length / scene.units.metres))
-        found += _further(link, scene, letters)
+            lengths.append((letters.length(link.bar), link.length / scene.units.metres))
+        lengths += _further(link, scene, letters)
     metres = scene.units.metres
     discs = (disc for link in (*scene.links, scene.frame) for disc in link.discs.items())
-    found += [(sign("r", name), abs(disc.r) / metres) for name, disc in discs]
+    lengths += [(sign("r", name), abs(disc.r) / metres) for name, disc in discs]
     least = NO_LENGTH * scene.size / metres
-    return [(name, printed(as_given(length))) for name, length in found if length > least]
+    return [(name, printed(as_given(length))) for name, length in lengths if length > least]
 
 
 def given_teeth(scene: Mechanism, language: str) -> list[RichText]:
     """The numbers of teeth, each wheel once; with its gear where it has several.  Internal teeth are marked."""
-    found: dict[str, RichText] = {}
+    wheels: dict[str, RichText] = {}
     for gear in scene.gears:
         for wheel, teeth in zip(gear.bodies, gear.teeth, strict=True):
             if teeth is None:
@@ -136,19 +136,19 @@ def given_teeth(scene: Mechanism, language: str) -> list[RichText]:
             said = sign("z", wheel) + f" = {number(abs(teeth))}"
             if teeth < 0:
                 said += say(Phrase("in brackets", words=term("internal", language)), languages(language)[0])
-            if found.setdefault(wheel, said) != said:
-                found[f"{wheel} {gear.name}"] = said + f" ({gear.name})"
-    return list(found.values())
+            if wheels.setdefault(wheel, said) != said:
+                wheels[f"{wheel} {gear.name}"] = said + f" ({gear.name})"
+    return list(wheels.values())
 
 
 def _further(link: PlacedLink, scene: Mechanism, letters: Notation) -> list[tuple[RichText, float]]:
-    """Distances of the further points of a link from its own."""
-    told = off_its_guide(scene, link) if len(link.bar) < 2 and along_its_guide(scene, link) else []
-    more = [p for p in link.points if p not in (*link.bar, *told)]
+    """Distances of the further points of a link from those of its bar."""
+    beside = off_its_guide(scene, link) if len(link.bar) < 2 and along_its_guide(scene, link) else []
+    more = [p for p in link.points if p not in (*link.bar, *beside)]
     return [
-        (letters.length((own, p)), abs(link.points[p] - link.points[own]) / scene.units.metres)
+        (letters.length((start, p)), abs(link.points[p] - link.points[start]) / scene.units.metres)
         for p in more
-        for own in link.bar
+        for start in link.bar
     ]
 
 
@@ -178,14 +178,14 @@ def given_shapes(scene: Mechanism, letters: Notation, language: str) -> list[Ric
     the link slides and to the left of it.  Pins and blocks in circular slots come last.
     """
     whole = scene.whole
-    found = [phrase for link in whole.links if not link.redundant for phrase in _shape(whole, link, letters)]
+    phrases = [phrase for link in whole.links if not link.redundant for phrase in _shape(whole, link, letters)]
     for slot in whole.slots:
         centre, point = letters.point(slot.centre), letters.point(slot.point)
         key, bar = "block on circle" if slot.block else "pin on circle", letters.bar((slot.centre, slot.point))
         runs = {"point": point, "link": slot.of or slot.bar, "on": slot.on, "centre": centre}
-        found.append(Phrase(key, **runs, **({} if slot.block else {"bar": bar, "name": slot.bar})))
-    told = ((rich_text(phrase, each) for each in languages(language)) for phrase in found)
-    return [spaced(" ", dict.fromkeys(shape)) for shape in told]
+        phrases.append(Phrase(key, **runs, **({} if slot.block else {"bar": bar, "name": slot.bar})))
+    shapes = ((rich_text(phrase, each) for each in languages(language)) for phrase in phrases)
+    return [spaced(" ", dict.fromkeys(shape)) for shape in shapes]
 
 
 def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Phrase]:
@@ -196,9 +196,9 @@ def _shape(scene: Mechanism, link: PlacedLink, letters: Notation) -> Iterator[Ph
         angle = number(as_line(pairs[0].turn / pairs[1].turn))
         yield Phrase("guides at angle", first=first, second=second, angle=angle)
     elif pairs and (len(link.bar) == 2 or _carries_its_axis(scene, link)) and abs(pairs[0].turn.imag) > LEVEL:
-        own = axis if len(link.bar) == 2 else Phrase("axis of", link=link.name)
+        line = axis if len(link.bar) == 2 else Phrase("axis of", link=link.name)
         held_to = _guide_name(scene, pairs[0], letters)
-        yield Phrase("held at angle", bar=own, angle=number(as_line(pairs[0].turn)), axis=held_to)
+        yield Phrase("held at angle", bar=line, angle=number(as_line(pairs[0].turn)), axis=held_to)
     beside = off_its_guide(scene, link) if len(link.bar) < 2 else []
     if not pairs and len(link.points) <= 2 and not _axis_counts(scene, link):
         beside = []
@@ -245,9 +245,9 @@ def used_guides(scene: Mechanism, link: PlacedLink) -> list[PlacedGuide]:
     return [guide for name, guide in link.guides.items() if name and name in used]
 
 
-def as_line(way: complex) -> float:
+def as_line(direction: complex) -> float:
     """The angle of a line (degrees), above -90 to 90."""
-    angle = degrees(way)
+    angle = degrees(direction)
     return 90.0 if abs(abs(angle) - 90.0) < 1e-9 else math.remainder(angle, 180.0) + 0.0
 
 
@@ -309,11 +309,11 @@ def given_loads(sheet: Sheet, letters: Notation) -> list[Phrase]:
     balance = loading.balance
     balances = dict.fromkeys(DrawnPosition(sheet).balance(driver).symbol for driver in scene.drivers)
     return [
-        *([reduce(lambda one, other: Phrase("given masses", first=one, second=other), masses)] if masses else []),
+        *([reduce(lambda first, second: Phrase("given masses", first=first, second=second), masses)] if masses else []),
         *([Phrase("given weights", angle=number(aslant, 5))] if masses and abs(aslant + 90.0) > LEVEL else []),
         *(_load(scene, load, letters) for load in loading.loads),
         *(_spring_given(scene, spring, letters) for spring in loading.springs),
-        Phrase("given balance", forces=listed([force_letters(letters.convention, one) for one in balances])),
+        Phrase("given balance", forces=listed([force_letters(letters.convention, force) for force in balances])),
         *([_load(scene, balance, letters)] if balance is not None and balance.is_force else []),
     ]
 
@@ -373,8 +373,8 @@ def _phase(scene: Mechanism, phase: LoadPhase) -> Phrase:
 def _spring_given(scene: Mechanism, spring: SpringOn, letters: Notation) -> Phrase:
     """The given data of a spring, in words with symbols."""
     numbers = {gap: Neutral(f"{number(value)} {unit}") for gap, (value, unit) in spring.numbers(scene.units).items()}
-    one, two = (letters.point(point) for point in spring.points)
+    ends = dict(zip(("point", "other_point"), map(letters.point, spring.points), strict=True))
     name = force_letters(letters.convention, spring.symbol)
-    return Phrase(f"given {spring.kind}", **{**spring.gaps, "point": one, "other_point": two}, **numbers, force=name)
+    return Phrase(f"given {spring.kind}", **{**spring.gaps, **ends}, **numbers, force=name)
 
 

@@ -35,7 +35,7 @@ def term(key: str, language: str, otherwise: str | None = None, **values: str) -
         lines = in_all(Phrase(key, **{gap: Neutral(value) for gap, value in values.items()}), language)
         return " ".join(map(str, lines))
     words = tuple(dict.fromkeys(word(key, each, otherwise) for each in languages(language)))
-    return " ".join(one for one in words if not any(other.startswith(f"{one} ") for other in words))
+    return " ".join(name for name in words if not any(other.startswith(f"{name} ") for other in words))
 
 
 def punctuation(key: str, language: str) -> str:
@@ -52,14 +52,14 @@ _OWN_POSITION = re.compile(
 
 
 def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
-    """The titles of the scene, one one a language; at another position without the words for its own."""
+    """The title of the scene in each language; away from its own position without the words for that."""
     scene = sheet.scene
-    own = all(
+    unmoved = all(
         d.distance is not None or math.isclose(sheet.drivers[d.key], d.values[0], rel_tol=1e-9, abs_tol=1e-12)
         for d in scene.drivers
     )
-    found = (scene.question.title_in(each) or scene.name for each in languages(language))
-    return tuple(dict.fromkeys(title if own else _OWN_POSITION.sub("", title).strip() for title in found))
+    texts = (scene.question.title_in(each) or scene.name for each in languages(language))
+    return tuple(dict.fromkeys(title if unmoved else _OWN_POSITION.sub("", title).strip() for title in texts))
 
 
 def dimensions_in(sheet: Sheet, language: str) -> str:
@@ -68,9 +68,9 @@ def dimensions_in(sheet: Sheet, language: str) -> str:
     if unit == "mm":
         return ""
     *others, last = languages(language)
-    own = word(f"unit {unit}", last)  # once, where both languages write it alike
+    shared = word(f"unit {unit}", last)  # once, where both languages write it alike
     said = [say(Phrase("dimensions in", unit=word(f"unit {unit}", each)), each) for each in (*others, last)]
-    return " / ".join((*(one.removesuffix(f" {own}") for one in said[:-1]), said[-1]))
+    return " / ".join((*(text.removesuffix(f" {shared}") for text in said[:-1]), said[-1]))
 
 
 def number(value: float, digits: int = 6) -> str:
@@ -169,10 +169,10 @@ def _sentence(said: Phrase, language: str) -> str:
     """A phrase as a sentence: symbols without marks between point and link, ``v_B3/B2``, directions as lines."""
     plain = plain_in(language)
 
-    def shown(thing: object) -> str:
-        if isinstance(thing, Direction) and thing.relation != "towards":
-            return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
-        return plain(thing).replace("@", "")
+    def shown(part: object) -> str:
+        if isinstance(part, Direction) and part.relation != "towards":
+            return ("∥" if part.relation == "along" else "⊥") + "".join(part.names)
+        return plain(part).replace("@", "")
 
     text = say(said, language, shown)
     return _capital(text).rstrip("。.") + word("full stop", language)

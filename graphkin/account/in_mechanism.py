@@ -51,14 +51,14 @@ class InMechanism(Telling):
     @property
     def places(self) -> object:
         """Fixed points and guides by their places on paper."""
-        found = ((p, self.at(p)) for p in self.step.points)
-        told = [Phrase("place of a point", point=_named(p), **_coordinates(z)) for p, z in found if z is not None]
+        points = ((p, self.at(p)) for p in self.step.points)
+        phrases = [Phrase("place of a point", point=_named(p), **_coordinates(z)) for p, z in points if z is not None]
         for guide in self.sheet.scene.frame.guides.values():
             if guide.name:
                 through = guide.through / self.sheet.scales.length
                 angle = _degrees(guide.direction)
-                told.append(Phrase("place of a guide", guide=guide.name, angle=angle, **_coordinates(through)))
-        return listed(told) if told else None
+                phrases.append(Phrase("place of a guide", guide=guide.name, angle=angle, **_coordinates(through)))
+        return listed(phrases) if phrases else None
 
     @property
     def angle(self) -> str:
@@ -75,15 +75,15 @@ class InMechanism(Telling):
     def _link_points(self) -> Phrase | None:
         """Each new point of a link from its drawn points."""
         step, link = self.step, self.step.link
-        own = self.sheet.structure.links[link].points if link in self.sheet.structure.links else {}
-        before = [one for one in self.sheet.before(step) if one.diagram == "mechanism"]
-        standing = {s.ref.point for one in before for s in one.each(Mark)}
-        crossed = (one for one in before if one.reason in FINDS_A_POINT)
-        found = {one.point for one in crossed} - standing  # on no link yet
-        known = [p for p in own if p in standing]
-        told: list[Phrase] = []
-        for name in sorted(step.points, key=lambda p: p not in found):
-            if name not in found:
+        points = self.sheet.structure.links[link].points if link in self.sheet.structure.links else {}
+        before = [earlier for earlier in self.sheet.before(step) if earlier.diagram == "mechanism"]
+        standing = {s.ref.point for earlier in before for s in earlier.each(Mark)}
+        crossed = (earlier for earlier in before if earlier.reason in FINDS_A_POINT)
+        crossings = {earlier.point for earlier in crossed} - standing  # on no link yet
+        known = [p for p in points if p in standing]
+        phrases: list[Phrase] = []
+        for name in sorted(step.points, key=lambda p: p not in crossings):
+            if name not in crossings:
                 said = self._marked(known, name)
             else:
                 said = Phrase("place alone", point=_named(name), link=link)
@@ -93,9 +93,9 @@ class InMechanism(Telling):
                     said = Phrase("place joined", other=_named(known[0]), point=_named(name), link=link)
             if said is None:
                 return None
-            told.append(said)
+            phrases.append(said)
             known.append(name)
-        return joined("in turn", told) if told else None
+        return joined("in turn", phrases) if phrases else None
 
     def _marked(self, known: list[str], name: str) -> Phrase | None:
         """A new point of a link by its known points, if there are any."""
@@ -129,10 +129,10 @@ class InMechanism(Telling):
         span = at - start
         if abs(span) < SAME:
             return None
-        own, laid_off = self.sheet.structure.links[link].points, {
+        on_link, laid_off = self.sheet.structure.links[link].points, {
             "point": _named(name), "bar": PointNames((pivot, name), bar=True), "length": on_paper(abs(span))
         }
-        if laid and abs(cmath.phase(own[name] - own[pivot])) < STRAIGHT:
+        if laid and abs(cmath.phase(on_link[name] - on_link[pivot])) < STRAIGHT:
             return Phrase("points at", link=link, **laid_off)
         return Phrase("place polar", pivot=_named(pivot), angle=_degrees(span), **laid_off)
 
@@ -140,21 +140,20 @@ class InMechanism(Telling):
 
     @property
     def side(self) -> str | None:
-        """The side of the line between two points of a point found by arcs, or of the crossing of circles for a
-        tangent."""
-        one, other = map(self.at, self.step.points[:2])
+        """The side of the line between two points on which arcs cross, or the circles for a tangent."""
+        first, second = map(self.at, self.step.points[:2])
         arcs = [s.at for s in self.step.each(CompassArc)]
-        found = [self.at(self.step.point)] if self.step.reason == "arcs" else arcs
-        if one is None or other is None or not found or found[0] is None or abs(other - one) < SAME:
+        crossings = [self.at(self.step.point)] if self.step.reason == "arcs" else arcs
+        if first is None or second is None or not crossings or crossings[0] is None or abs(second - first) < SAME:
             return None
-        return "left" if cross(other - one, found[0] - one) > 0 else "right"
+        return "left" if cross(second - first, crossings[0] - first) > 0 else "right"
 
     @property
     def crossing(self) -> str | None:
         """The choice between the crossings of an arc with a straight path, as seen on the paper."""
         point, bars = self.step.point, [
-            s.b - s.a for one in self.sheet.placing("path") if one.point == self.step.point
-            for s in one.each(Bar) if abs(s.b - s.a) > SAME
+            s.b - s.a for step in self.sheet.placing("path") if step.point == self.step.point
+            for s in step.each(Bar) if abs(s.b - s.a) > SAME
         ]
         centre, at = self.at(self.step.points[0]), self.at(point)
         if centre is None or at is None or not bars:
@@ -172,8 +171,8 @@ class InMechanism(Telling):
         joints = map(self.account.letters.point, (step.point, *step.points))
         key = "written relative special" if step.base and step.kind != "driven" else "written special"
         point, first, second = joints
-        told = Phrase(key, point=point, first=first, second=second, base=step.base, link=step.link)
-        yield Phrase("written sliding leg", rule=told) if self.sheet.structure.slides else told
+        rule = Phrase(key, point=point, first=first, second=second, base=step.base, link=step.link)
+        yield Phrase("written sliding leg", rule=rule) if self.sheet.structure.slides else rule
 
     # trial positions
 
@@ -187,23 +186,23 @@ class InMechanism(Telling):
         values, misses = zip(*(self._row(table, row) for row in table.trials), strict=True)
         if len(table.moved) > 1:
             several = {"values": numbered(values), "misses": numbered(misses)}
-            told = Phrase("trial table several", moved=moved, missed=missed, **several)
-            return Phrase("in turn", first=self.plain, second=self._divided_by_parts(table, told))
+            trials = Phrase("trial table several", moved=moved, missed=missed, **several)
+            return Phrase("in turn", first=self.plain, second=self._divided_by_parts(table, trials))
         unit = "°" if table.missed[0].angle else " mm"
         measured = clauses([*(miss.removesuffix(unit) for [miss] in misses[:-1]), *misses[-1]])
-        told = Phrase("trial table", moved=moved, values=listed([*chain(*values)]), missed=missed, misses=measured)
+        trials = Phrase("trial table", moved=moved, values=listed([*chain(*values)]), missed=missed, misses=measured)
         if table.divided:
             before = table.before
             of_two = (table.trials[i][1][0] for i in (before - 1, before))
             part, whole = (f"{abs(self._shown(miss, table.missed[0].angle)):.2f}" for miss in of_two)
             (first_values, first_misses), *rest = (self._row(table, row) for row in table.divided)
-            told = Phrase(
-                "trial division", told=told, first=before, second=before + 1, parts=part, whole=whole,
+            trials = Phrase(
+                "trial division", told=trials, first=before, second=before + 1, parts=part, whole=whole,
                 values=listed(first_values), misses=listed(first_misses),
             )
             if rest:
-                told = Phrase("trial division again", told=told, value=listed(rest[-1][0]))
-        return Phrase("in turn", first=self.plain, second=told)
+                trials = Phrase("trial division again", told=trials, value=listed(rest[-1][0]))
+        return Phrase("in turn", first=self.plain, second=trials)
 
     def _positions_lines(self, language: str) -> Iterator[Phrase]:
         """Trial positions: the moved quantity, the construction of each point, the gap, and the value that closes
@@ -265,18 +264,18 @@ class InMechanism(Telling):
     def _points(self, names: Sequence[str]) -> RichText:
         return spaced(", ", map(self.account.letters.point, names))
 
-    def _divided_by_parts(self, table: TrialPositions, told: Phrase) -> Phrase:
+    def _divided_by_parts(self, table: TrialPositions, trials: Phrase) -> Phrase:
         """The divisions of trials that each moved another unknown."""
         for i, row in enumerate(table.divided):
             values, misses = map(listed, self._row(table, row))
             if i:
                 replaced = sign(roman(table.replaced[i - 1]))
-                told = Phrase("trial parts again", division=told, trial=replaced, values=values, misses=misses)
+                trials = Phrase("trial parts again", division=trials, trial=replaced, values=values, misses=misses)
             else:
                 steps = listed([sign(roman(k)) for k in range(2, len(table.trials) + 1)])
                 parts = listed([*map(_two_digits, table.parts)])
-                told = Phrase("trial parts", division=told, parts=parts, trials=steps, values=values, misses=misses)
-        return told
+                trials = Phrase("trial parts", division=trials, parts=parts, trials=steps, values=values, misses=misses)
+        return trials
 
     def _row(self, table: TrialPositions, row: TrialRow) -> tuple[list[str], list[str]]:
         """The values of a trial, and its gaps, each with its unit."""
@@ -327,11 +326,11 @@ class InMechanism(Telling):
             if bars:
                 return Phrase("trial angle of bar", link=moved.link, bar=PointNames(bars[0], bar=True))
             return Phrase("trial angle", link=moved.link)
-        one, other = links[moved.other], links[moved.link]
-        hinge = next((p for p in one.points if p in other.points), "")
-        if len(one.bar) < 2 or len(other.bar) < 2 or not hinge:
+        still, turning = links[moved.other], links[moved.link]
+        hinge = next((p for p in still.points if p in turning.points), "")
+        if len(still.bar) < 2 or len(turning.bar) < 2 or not hinge:
             return Phrase("trial turn", link=moved.link, base=moved.other)
-        bar, base = (PointNames(link.bar[:2], bar=True) for link in (other, one))
+        bar, base = (PointNames(link.bar[:2], bar=True) for link in (turning, still))
         return Phrase("trial turn of bars", link=moved.link, bar=bar, base=base, hinge=_named(hinge))
 
     sentences: ClassVar[Mapping[Reason, tuple[str, ...] | Callable[[InMechanism], Phrase | None]]] = {
@@ -346,25 +345,25 @@ class InMechanism(Telling):
 
 def _along(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
     """A point of a bar with the direction of a line through its pivot: on the line, or at an angle to it."""
-    (one, a), (_, b) = p, q
+    (pivot, a), (_, b) = p, q
     if abs(at - a) < SAME or abs(cross(b - a, at - a)) < STRAIGHT * abs(b - a) * abs(at - a):
         return _on_line(p, q, name, at)
     turn = degrees((at - a) / (b - a))
     return Phrase(
-        "place turned", pivot=_named(one), angle=number(abs(turn), 4), sense=sense_of(turn),
-        base=PointNames((one, q[0]), bar=True), bar=PointNames((one, name), bar=True), length=on_paper(abs(at - a)),
+        "place turned", pivot=_named(pivot), angle=number(abs(turn), 4), sense=sense_of(turn),
+        base=PointNames((pivot, q[0]), bar=True), bar=PointNames((pivot, name), bar=True), length=on_paper(abs(at - a)),
         point=_named(name),
     )
 
 
 def _on_line(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
-    (one, a), (two, b) = p, q
+    (first, a), (second, b) = p, q
     along = dot(at - a, b - a) / abs(b - a) ** 2
-    bar, part = (PointNames(ends, bar=True) for ends in ((one, two), (one, name)))
+    bar, part = (PointNames(ends, bar=True) for ends in ((first, second), (first, name)))
     gaps = {"bar": bar, "point": _named(name), "part": part, "length": on_paper(abs(at - a))}
     if 0.0 <= along <= 1.0:
         return Phrase("place within", **gaps)
-    return Phrase("place beyond", **gaps, end=_named(one if along < 0.0 else two))
+    return Phrase("place beyond", **gaps, end=_named(first if along < 0.0 else second))
 
 
 def _named(point: str) -> PointNames:

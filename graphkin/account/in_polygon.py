@@ -121,19 +121,18 @@ class InPolygon(Telling):
         return None if self.places is None or abs(self.places[0]) < SAME else self._before(self.step.symbol)
 
     def _before(self, symbol: Symbol | None) -> Symbol | None:
-        """The vector at whose end this one begins: the vector before it in the equation as written, else the last drawn
-        one."""
+        """The vector at whose end this begins: that before it in the equation as written, else the last drawn."""
         drawn: dict[Symbol, complex] = {}
-        for one in self.sheet.before(self.step):
-            for stroke in one.strokes if one.diagram == self.step.diagram else ():
-                if isinstance(stroke, Bar) and one.reason == "before its turn":
-                    drawn[one.symbol] = stroke.b
+        for earlier in self.sheet.before(self.step):
+            for stroke in earlier.strokes if earlier.diagram == self.step.diagram else ():
+                if isinstance(stroke, Bar) and earlier.reason == "before its turn":
+                    drawn[earlier.symbol] = stroke.b
                 elif isinstance(stroke, Vector):
                     drawn[stroke.symbol] = stroke.tip
         assert self.places is not None
         there = [s for s, tip in drawn.items() if abs(tip - self.places[0]) < SAME]
         for side in self.sides if symbol is not None else ():
-            terms = [one.symbol for one in side]
+            terms = [term.symbol for term in side]
             if symbol in terms[1:] and terms[terms.index(symbol) - 1] in there:
                 return terms[terms.index(symbol) - 1]
         return there[-1] if there else None
@@ -170,11 +169,11 @@ class InPolygon(Telling):
     @property
     def what(self) -> object:
         """The vector on a line, or the sum of the vectors of its side with unknown sizes along it."""
-        own = self.step.symbol
-        side = next((side for side in self.sides if any(t.symbol == own for t in side)), ())
-        along = next((t.direction for t in side if t.symbol == own), None)
+        symbol = self.step.symbol
+        side = next((side for side in self.sides if any(t.symbol == symbol for t in side)), ())
+        along = next((t.direction for t in side if t.symbol == symbol), None)
         unknown: list[object] = [t.symbol for t in side if not t.size_known and t.direction == along]
-        return joined("sum", unknown or [own])
+        return joined("sum", unknown or [symbol])
 
     @property
     def pole(self) -> str | None:
@@ -182,8 +181,8 @@ class InPolygon(Telling):
         return "pole" if self.places is not None and abs(self.places[0]) < SAME else None
 
     def _laid_off(self) -> Phrase | None:
-        told, why = self.first("lay off lettered", "lay off from"), self._carried_over()
-        return told if why is None else Phrase("in turn", first=told or self.step.phrase, second=why)
+        phrase, why = self.first("lay off lettered", "lay off from"), self._carried_over()
+        return phrase if why is None else Phrase("in turn", first=phrase or self.step.phrase, second=why)
 
     def _carried_over(self) -> Phrase | None:
         """The source of a vector between points of two links that is carried over from the motion seen from a held
@@ -198,20 +197,20 @@ class InPolygon(Telling):
         gives = (s.symbol for s in reversed(before)
                  if s.reason in ("vector", "pole to end") or s.begins)
         seen = next((
-            one for one in gives if one.kind == kind and one.of is not None and one.to is not None
-            and one.to.link in held and one.of.point == one.to.point == of.point
+            symbol for symbol in gives if symbol.kind == kind and symbol.of is not None and symbol.to is not None
+            and symbol.to.link in held and symbol.of.point == symbol.to.point == of.point
         ), None)
         if seen is None or seen.to is None:
             return None
         against = of.link == seen.to.link
-        told = Phrase("against", vector=seen) if against else seen
+        vector = Phrase("against", vector=seen) if against else seen
         if kind == "v" or to is None or not against:
-            return Phrase("written carried over", symbol=step.symbol, vector=told)
+            return Phrase("written carried over", symbol=step.symbol, vector=vector)
         slip = next(s.symbol for s in before if s.verb == "lay off" and s.symbol.of == of and s.symbol.kind == "v")
         size = Size("rate", (seen.to.link, to.link), slip, twice=True)
         turning = self.sheet.rates["omega"][seen.to.link].value - self.sheet.rates["omega"][to.link].value
         rule = Phrase("rule of size", symbol=size, rule=bound(rule_sum(self.sheet, size, "acceleration")))
-        gaps = {"symbol": step.symbol, "vector": told, "rule": rule, "slip": slip, "sense": sense_of(turning)}
+        gaps = {"symbol": step.symbol, "vector": vector, "rule": rule, "slip": slip, "sense": sense_of(turning)}
         return Phrase("written carried over coriolis", **gaps)
 
     def _laid_sums(self) -> Iterable[Words]:
@@ -253,8 +252,8 @@ class InPolygon(Telling):
         unit = self.sheet.scales.length / self.sheet.scene.units.metres
         part, whole = (amount(abs(z - a) * unit, 4) for z in (c, b))
         sides = (number(abs(c - z) / abs(b - a), 4) for z in (a, b))
-        found = printed(part), printed(whole), printed(quotient(part, whole, 4)), *sides
-        return dict(zip(RATIOS, found, strict=True))
+        texts = printed(part), printed(whole), printed(quotient(part, whole, 4)), *sides
+        return dict(zip(RATIOS, texts, strict=True))
 
     @property
     def _one_place(self) -> bool:
@@ -306,14 +305,14 @@ class InPolygon(Telling):
         start = end_of(self.step.begins[0]) if self.step.held else Phrase("the point", point=self.gap("a"))
         if not self.step.held and self.gap("a") is None:
             return None
-        told = list[Phrase]()
+        phrases = list[Phrase]()
         for part, span in self.parts:
             normal = part.symbol.kind == "an"
             rule = Phrase("as normal" if normal else "as vector", vector=_ruled(part.symbol, part.size))
-            way = part.direction if normal else Phrase("pointing", direction=part.direction, angle=pointing(span))
-            told.append(Phrase("lay off from", start=start, rule=rule, length=on_paper(abs(span)), way=way))
+            direction = part.direction if normal else Phrase("pointing", direction=part.direction, angle=pointing(span))
+            phrases.append(Phrase("lay off from", start=start, rule=rule, length=on_paper(abs(span)), way=direction))
             start = Phrase("the end of", vector=part.symbol)
-        return joined("in turn", told) if told else None
+        return joined("in turn", phrases) if phrases else None
 
     def _by_rates_sums(self) -> Iterator[Words]:
         """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
@@ -328,10 +327,10 @@ class InPolygon(Telling):
         letters = self.account.letters
         for part, _ in self.parts:
             assert part.size is not None
-            way = letters.direction(part.direction, self.sheet.scene.frame.name)
+            direction = letters.direction(part.direction, self.sheet.scene.frame.name)
             value = bound(rule_sum(self.sheet, part.size, self.step.diagram))
             rule = spaced(" =\u00a0", (self.account.letters.vector(part.symbol), letters.size(part.size), value))
-            yield rule + ",  " + way
+            yield rule + ",  " + direction
 
     # rates
 
@@ -377,27 +376,27 @@ class InPolygon(Telling):
     # trial polygons
 
     def _trial(self) -> Phrase:
-        """A trial polygon: its steps, and in the first one its reason."""
+        """A trial polygon: its steps, and in the first its reason."""
         step = self.step
         # the steps by which it is drawn like the true polygon
         assumed = {aid.symbol for aid in step.auxiliary}
         later = [s for s in self.sheet.steps[step.number :] if s.diagram == step.diagram]
         first = next(s.number for s in later if s.reason == "open ends") + 1
-        own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in assumed for x in s.strokes))
-        last = max((s.number for s in own), default=first)
+        drawn = (s for s in later if s.number >= first and any(getattr(x, "symbol", 0) in assumed for x in s.strokes))
+        last = max((s.number for s in drawn), default=first)
         rates = listed([
             Phrase("rate is", symbol=symbol, value=true_minus(number(value, 5)), unit=self._unit(symbol))
             for symbol, value in step.rates
         ])
-        told = Phrase("trial lettered", trial=sign(roman(step.trial)), rates=rates, first=first, last=last)
+        trial = Phrase("trial lettered", trial=sign(roman(step.trial)), rates=rates, first=first, last=last)
         if step.trial > 1:
-            return told
+            return trial
         if step.far is None:
-            return Phrase("superposed since none", reason=told)
+            return Phrase("superposed since none", reason=trial)
         angle, away = number(math.degrees(step.far.crossing), 2), f"{step.far.away / self.sheet.scales.length:.0f}"
         first_link, second_link = step.far.links
         crossing = {"first": first_link, "second": second_link, "angle": angle, "distance": away}
-        return Phrase("superposed since far", reason=told, **crossing)
+        return Phrase("superposed since far", reason=trial, **crossing)
 
     def _superposed(self) -> Phrase:
         """The gaps of the trials, measured from letter to letter, and the proportional division in numbers."""
@@ -431,11 +430,11 @@ class InPolygon(Telling):
             yield Phrase("written trial polygon", trial=mark, rates=Neutral(rates), open=gaps)
         quotients = divisions(self.sheet, divided)
         said = Neutral(spaced("; ", (
-            bound(symbol(s) + f" = {one.terms} = {one.value} {self._unit(s)}")
-            for (s, _), one in zip(divided.rates, quotients, strict=True)
+            bound(symbol(s) + f" = {division.terms} = {division.value} {self._unit(s)}")
+            for (s, _), division in zip(divided.rates, quotients, strict=True)
         )))
         if len(quotients) > 1:
-            parts = listed([one.part for one in quotients])
+            parts = listed([division.part for division in quotients])
             first, others = sign(roman(1)), listed(numerals[1:])
             yield Phrase("written superposed several", parts=parts, first=first, others=others, rates=said)
         else:
@@ -443,25 +442,26 @@ class InPolygon(Telling):
 
     def _left_open(self) -> object:
         """The gaps, by their end points and directions."""
-        told, divided = [], self.step
-        for way, refs, less in zip(divided.ways, divided.between, divided.less, strict=True):
+        gaps, divided = [], self.step
+        for direction, refs, less in zip(divided.ways, divided.between, divided.less, strict=True):
             begin, end = (
                 self.account.end_of(self.step.diagram, ref)
                 or Phrase("point on link", point=PointNames((ref.point,)), link=ref.link)
                 for ref in refs
             )
-            across, names = "square" if way.relation == "square" else "along", tuple(ref.point for ref in refs)
-            if names[0] != names[1] or (way.names == names and not refs[0].link + refs[1].link):
+            across, names = "square" if direction.relation == "square" else "along", tuple(ref.point for ref in refs)
+            if names[0] != names[1] or (direction.names == names and not refs[0].link + refs[1].link):
                 first, second = (PointNames((name,)) for name in names)
                 said = Phrase(f"open {across} bar", begin=begin, end=end, first=first, second=second)
             else:
-                said = Phrase(f"open {across} guide", begin=begin, end=end, guide="".join(way.names))
-            for one, mm in less:
+                said = Phrase(f"open {across} guide", begin=begin, end=end, guide="".join(direction.names))
+            for vector, mm in less:
                 if abs(mm) >= SEEN:
-                    rule = one.symbol if one.size is None else Phrase("rule of size", symbol=one.symbol, rule=one.size)
+                    size, symbol = vector.size, vector.symbol
+                    rule = symbol if size is None else Phrase("rule of size", symbol=symbol, rule=size)
                     said = Phrase("open less", between=said, rule=rule, length=true_minus(on_paper(mm)))
-            told.append(said)
-        return listed(told)
+            gaps.append(said)
+        return listed(gaps)
 
     def _unit(self, symbol: Symbol) -> str:
         return symbol.unit(self.sheet.scene.units).written

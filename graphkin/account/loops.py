@@ -129,7 +129,7 @@ def _in_units(block: LoopBlock, scene: Mechanism) -> LoopBlock:
     """The matrix, its right sides and the rates in the file's unit of length for rates."""
     fast = scene.units.rates.metres
     per = np.array([fast if kind == "travel" else 1.0 for kind, _ in block.unknowns])
-    rates, second = (tuple((np.array(found) / per).tolist()) for found in (block.rates, block.second_rates))
+    rates, second = (tuple((np.array(values) / per).tolist()) for values in (block.rates, block.second_rates))
     return replace(block, matrix=block.matrix * per / fast, velocity=block.velocity / fast,
                    acceleration=block.acceleration / fast, rates=rates, second_rates=second)
 

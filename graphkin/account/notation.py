@@ -295,8 +295,8 @@ def _named(convention: Convention, symbol: Symbol) -> tuple[str, str]:
         case "G":
             return ("W" if convention in ("us", "british") else "G"), symbol.link
         case "P":
-            own = "M" if symbol.turning else "P"
-            return own, "" if symbol.name == own else symbol.name
+            usual = "M" if symbol.turning else "P"
+            return usual, "" if symbol.name == usual else symbol.name
         case "M" if symbol.other:
             return "M", links + at
         case "arm":

@@ -134,20 +134,20 @@ class PolygonPoints:
     def _components(self) -> Iterator[NamedPoint]:
         """The ends of components, then of known components that lead to a special point or are laid off before their
         turn."""
-        for step, vector in self.vectors.values():
+        for number, vector in self.vectors.values():
             if vector.role not in ("resultant", "relative") and abs(vector.span) >= ZERO:
-                yield NamedPoint(vector.tip, symbol=vector.symbol, role=vector.role, step=step)
+                yield NamedPoint(vector.tip, symbol=vector.symbol, role=vector.role, step=number)
         known = set(self.vectors)
-        for one, stroke in ((step, stroke) for step in self._steps for stroke in step.strokes):
+        for step, stroke in ((s, stroke) for s in self._steps for stroke in s.strokes):
             if isinstance(stroke, Vector) and stroke.aid and not stroke.trial:
                 symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip
-            elif isinstance(stroke, Bar) and one.reason == "before its turn":
-                symbol, tail, tip = one.symbol, stroke.a, stroke.b
+            elif isinstance(stroke, Bar) and step.reason == "before its turn":
+                symbol, tail, tip = step.symbol, stroke.a, stroke.b
             else:
                 continue
             if symbol.kind in KNOWN and symbol not in known and abs(tip - tail) >= ZERO:
                 known.add(symbol)
-                yield NamedPoint(tip, symbol=symbol, role=KNOWN[symbol.kind], step=one.number, aid=True)
+                yield NamedPoint(tip, symbol=symbol, role=KNOWN[symbol.kind], step=step.number, aid=True)
 
 
 def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
@@ -196,27 +196,27 @@ class Account:
 
     def say(self, phrase: Phrase, language: str) -> RichText:
         """A phrase with its symbols."""
-        return rich_text(phrase, language, lambda thing: self._show(thing, language))
+        return rich_text(phrase, language, lambda part: self._show(part, language))
 
     def in_each(self, phrase: Phrase, language: str) -> Iterable[RichText]:
         """A phrase with its symbols in each language of a sheet, once where they say it alike."""
         return dict.fromkeys(self.say(phrase, each) for each in languages(language))
 
-    def _show(self, thing: object, language: str) -> Words:
-        if isinstance(thing, str | RichText):
-            return thing
-        if isinstance(thing, Symbol):
-            return self.letters.vector(thing)
-        if isinstance(thing, PointRef):
-            return self.letters.coincident(thing)
-        if isinstance(thing, PointNames):
-            points = [self.letters.point(name) for name in thing.names]
-            return RichText(*points) if thing.bar else rich_text(listed(points), language)
-        if isinstance(thing, Direction):
-            return self.letters.direction(thing, self.sheet.scene.frame.name)
-        if isinstance(thing, Size):
-            return word("given", language).lower() if thing == GIVEN else self.letters.size(thing)
-        return str(thing)
+    def _show(self, part: object, language: str) -> Words:
+        if isinstance(part, str | RichText):
+            return part
+        if isinstance(part, Symbol):
+            return self.letters.vector(part)
+        if isinstance(part, PointRef):
+            return self.letters.coincident(part)
+        if isinstance(part, PointNames):
+            points = [self.letters.point(name) for name in part.names]
+            return RichText(*points) if part.bar else rich_text(listed(points), language)
+        if isinstance(part, Direction):
+            return self.letters.direction(part, self.sheet.scene.frame.name)
+        if isinstance(part, Size):
+            return word("given", language).lower() if part == GIVEN else self.letters.size(part)
+        return str(part)
 
     def end_at(self, diagram: DiagramName, at: complex | None) -> RichText | None:
         """The letter of a place of a polygon (mm from the pole); None where the convention names vectors instead."""
@@ -234,7 +234,7 @@ class Account:
         """An end point with its place and its letter."""
         # where coincident points are told apart the point alone is that of its block
         refs = (ref, PointRef(ref.point)) if self.letters.blocks.get(ref.point) == ref.link else (ref,)
-        return next((p for one in refs for p in self._named.get(diagram, ()) if p.ref == one), None)
+        return next((p for point in refs for p in self._named.get(diagram, ()) if p.ref == point), None)
 
     @cached_property
     def lengths(self) -> Mapping[int, Sequence[RichText]]:
@@ -274,8 +274,8 @@ class Telling:
     def gap(self, name: str) -> object:
         """The value of a gap by its name: a property of the telling, else an argument of the step; None without a
         value."""
-        own = isinstance(getattr(type(self), name, None), property)
-        return getattr(self, name) if own else self.step.gap(name)
+        derived = isinstance(getattr(type(self), name, None), property)
+        return getattr(self, name) if derived else self.step.gap(name)
 
     def first(self, *keys: str) -> Phrase | None:
         """The first of some sentences whose gaps can be filled."""

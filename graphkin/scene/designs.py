@@ -203,8 +203,8 @@ def _read(raw: Tables, name: str) -> Design:
     problems: list[Problem] = []
     given = plain(raw)
     if "links" in given:
-        found = Phrase("unknown table") if isinstance(given.pop("links"), dict) else Phrase("unknown key")
-        problems.append(Problem("links", found, "this is a scene a design file has"))
+        fault = Phrase("unknown table") if isinstance(given.pop("links"), dict) else Phrase("unknown key")
+        problems.append(Problem("links", fault, "this is a scene a design file has"))
     if not given.get("design"):
         problems.append(Problem("design", "is missing", "a design file has a table design with"))
     design, wrong, _ = DESIGN.checked(given)
@@ -247,8 +247,8 @@ def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositi
 
     for i, bar in enumerate(bars, 1):
         if (bar.C is None) == (bar.angle is None):
-            found = Phrase("has neither c nor angle") if bar.C is None else Phrase("has both c and angle")
-            say(f"positions.{i}", found, "a bar lies where b and c lie")
+            fault = Phrase("has neither c nor angle") if bar.C is None else Phrase("has both c and angle")
+            say(f"positions.{i}", fault, "a bar lies where b and c lie")
     by_angle = any(bar.angle is not None for bar in bars)
     if by_angle and not length:
         say("BC", "is missing", "length of the bar since its places are")

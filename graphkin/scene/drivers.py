@@ -110,14 +110,14 @@ def _too_slow(where: str, driver: Driver | DrivenSlide) -> Iterator[Problem]:
 
 
 def _origin_problems(where: str, driver: Driver | DrivenSlide, reading: Reading) -> Iterator[Problem]:
-    what, value = ("angle", driver.angle) if isinstance(driver, Driver) else ("travel", driver.travel)
+    key, value = ("angle", driver.angle) if isinstance(driver, Driver) else ("travel", driver.travel)
     if driver.origin is None:
         if driver.near is not None:
             yield Problem(f"{where}.near", "tells which dead point", "write from dead point with it")
         return
     if value is None or value == 0.0:
-        found = Phrase("is missing") if value is None else Phrase("0 is the dead point itself")
-        yield Problem(f"{where}.{what}", found, "write the distance from the dead point")
+        fault = Phrase("is missing") if value is None else Phrase("0 is the dead point itself")
+        yield Problem(f"{where}.{key}", fault, "write the distance from the dead point")
     if len(reading.drivers) > 1:
         yield Problem(f"{where}.from", "a dead point is found for a single", "give the value itself")
     if reading.file.drawn:
@@ -188,30 +188,30 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     """The key of the pair that a table drives, if it is known; its problems are noted."""
     if driver.velocity is None and driver.law is None and not lost & {"velocity", "law"}:
         reading.say(f"{where}.velocity", "is missing", "write velocity per second it may be 0")
-    what, _, on = driver.slide.partition("/")
+    slider, _, on = driver.slide.partition("/")
     # the whole key first: a pin may bear the name of a link that slides elsewhere
     pairs = {p.key: p.b for p in reading.slides if p.key == driver.slide}
-    pairs = pairs or {p.key: p.b for p in reading.slides if p.a == what}
-    pairs = pairs or {p.key: p.b for p in reading.slides if p.of and p.pin == what}
+    pairs = pairs or {p.key: p.b for p in reading.slides if p.a == slider}
+    pairs = pairs or {p.key: p.b for p in reading.slides if p.of and p.pin == slider}
     keys = [pair for pair, rail in pairs.items() if rail in (on or rail,) and rail == (driver.relative_to or rail)]
     known = reading.pairs
-    meant, link, here = keys[0] if len(keys) == 1 else driver.slide, reading.links.get(what), f"{where}.slide"
+    meant, link, here = keys[0] if len(keys) == 1 else driver.slide, reading.links.get(slider), f"{where}.slide"
     if "" in reading.unsure or reading.is_unread(driver.slide):
         return meant  # its pair has a problem of its own
-    if not pairs and what not in reading.points:
-        reading.say(here, "there is no sliding link", did_you_mean(what, known), what=what)
+    if not pairs and slider not in reading.points:
+        reading.say(here, "there is no sliding link", did_you_mean(slider, known), what=slider)
     elif not pairs:
         drive = Phrase("drive a sliding pair", pairs=listed(known)) if known else Phrase("there is no sliding pair")
-        reading.say(here, "link slides on nothing", drive, what=what)
+        reading.say(here, "link slides on nothing", drive, what=slider)
     elif not keys:
         name, rail = ("slide", on) if on and on not in pairs.values() else ("relative_to", driver.relative_to)
-        reading.say(f"{where}.{name}", "does not slide on link", "it may be", what=what, name=rail,
+        reading.say(f"{where}.{name}", "does not slide on link", "it may be", what=slider, name=rail,
                     names=joined("one or other", pairs))
     elif len(keys) > 1:
-        reading.say(here, "slides on links", "write a key", what=what, count=len(keys),
+        reading.say(here, "slides on links", "write a key", what=slider, count=len(keys),
                     names=joined("one or other", [f'"{pair}"' for pair in keys]))
     if link is not None and link.redundant:
-        reading.say(here, "link is redundant", "drive by a link that counts", what=what)
+        reading.say(here, "link is redundant", "drive by a link that counts", what=slider)
     return meant
 
 
@@ -219,8 +219,8 @@ def _driven_twice(where: str, name: str, base: str, before: Mapping[str, model.D
     """The problem of a motion that another driver gives already; ``base`` is "" for a travel."""
     for place, other in before.items():
         if other.key == name:
-            what = Phrase("link of name", name=name) if base else name
-            said, wanted = Phrase("is driven by already", what=what, where=place), Phrase("leave one of them out")
+            motion = Phrase("link of name", name=name) if base else name
+            said, wanted = Phrase("is driven by already", what=motion, where=place), Phrase("leave one of them out")
             if base and not (other.turns and other.relative_to == base):
                 # the frame cannot be driven: the driver that has a moving link turns about
                 wanted = (Phrase("write the first as link relative_to", base=other.relative_to, key=name)
@@ -296,11 +296,11 @@ def stated_driver(driver: model.Driver, tables: Iterable[Driver | DrivenSlide], 
 def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
     """The law in a driver's table, in rad or m and s; its problems are noted."""
     single = any(x is not None for x in (law.to, law.rise, law.duration, law.by))
-    ways = {"table": law.table, "pieces": law.pieces, "by": single}
-    given = [name for name, there in ways.items() if there]
+    forms = {"table": law.table, "pieces": law.pieces, "by": single}
+    given = [name for name, there in forms.items() if there]
     if len(given) != 1:
-        found = Phrase("says its motion by", ways=listed(given)) if given else "says nothing"
-        reading.say(where, found, "write from and to or pieces or a table")
+        fault = Phrase("says its motion by", ways=listed(given)) if given else "says nothing"
+        reading.say(where, fault, "write from and to or pieces or a table")
         return None
     if law.table:
         return _by_table(where, law, unit, reading)
@@ -311,8 +311,8 @@ def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> Mot
     start = law.origin or 0.0
     if single:
         if (law.to is None) == (law.rise is None):
-            found = "is missing" if law.to is None else "stands beside rise"
-            reading.say(f"{where}.to", found, "write to the value at the end or")
+            fault = "is missing" if law.to is None else "stands beside rise"
+            reading.say(f"{where}.to", fault, "write to the value at the end or")
         if law.duration is None:
             reading.say(f"{where}.duration", "is missing", "write the seconds that it takes")
         if law.by is None:

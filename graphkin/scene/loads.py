@@ -91,8 +91,8 @@ def _mass(reading: Reading, link: str, table: Mass, g: float) -> LinkMass | None
     if reading.lost_under("masses", link):
         return None
     if (table.mass is None) == (table.weight is None):
-        found = "has neither mass nor weight" if table.mass is None else "has both mass and weight"
-        reading.say(where, found, "give one of them")
+        fault = "has neither mass nor weight" if table.mass is None else "has both mass and weight"
+        reading.say(where, fault, "give one of them")
         return None
     heavy = si.weight / g if si.weight is not None else si.mass or 0.0
     return LinkMass(link, at, heavy, si.inertia)
@@ -105,8 +105,8 @@ def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
         return None
     lost = reading.lost_under("loads", name)
     if (load.force is None) == (load.moment is None) and not lost:
-        found = "has neither force nor moment" if load.force is None else "has both force and moment"
-        say(where, found, "give one of them")
+        fault = "has neither force nor moment" if load.force is None else "has both force and moment"
+        say(where, fault, "give one of them")
         return None
     phase = _phase(reading, f"{where}.when", load.when) if load.when is not None else None
     if si.moment is not None:
@@ -181,8 +181,8 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> LoadPhase | None:
     """When a load acts, in SI, its pair by its key."""
     say = reading.say
     if (when.stroke is None) == (when.driver is None):
-        found = "has neither stroke nor driver" if when.stroke is None else "has both stroke and driver"
-        say(where, found, "give one of them")
+        fault = "has neither stroke nor driver" if when.stroke is None else "has both stroke and driver"
+        say(where, fault, "give one of them")
         return None
     if when.stroke is not None:
         if not when.start < when.end <= 1.0:

@@ -546,7 +546,7 @@ def dimensions(mechanism: Mechanism) -> dict[Dimension, complex]:
             numbers["through", link.name, name], numbers["direction", link.name, name] = guide.through, guide.direction
     numbers |= {("turn", pair.key): pair.turn for pair in mechanism.slidings}
     for k, driver in enumerate(mechanism.drivers):
-        numbers |= {(what, k): complex(x) for what, x in zip(("value", "rate", "second"), driver.values, strict=True)}
+        numbers |= {(order, k): complex(x) for order, x in zip(("value", "rate", "second"), driver.values, strict=True)}
     return numbers
 
 
@@ -564,8 +564,8 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
         return replace(old, points=points, guides=guides)
 
     def driver(k: int, old: Driver) -> Driver:
-        value, rate, second = (own(complex(x), what, k).real
-                               for what, x in zip(("value", "rate", "second"), old.values, strict=True))
+        value, rate, second = (own(complex(x), order, k).real
+                               for order, x in zip(("value", "rate", "second"), old.values, strict=True))
         return replace(old, value=value, rate=rate, second=second, rpm=None if ("rate", k) in changed else old.rpm)
 
     return replace(
@@ -584,10 +584,10 @@ def changed_beside(before: Mechanism, after: Mechanism) -> tuple[str, ...]:
     """The parts that move differently in two mechanisms for another reason than these numbers: the place of a cam, the
     radius of a disc, teeth."""
     numbers = dimensions(before)
-    one, other = (with_dimensions(mechanism, numbers) for mechanism in (before, after))
-    changed = [part for part in _MOVING if getattr(one, part) != getattr(other, part)]
-    touching = {pair.table: None for pair in (*one.higher_pairs, *other.higher_pairs)
-                if (pair in one.higher_pairs) != (pair in other.higher_pairs)}
+    first, second = (with_dimensions(mechanism, numbers) for mechanism in (before, after))
+    changed = [part for part in _MOVING if getattr(first, part) != getattr(second, part)]
+    touching = {pair.table: None for pair in (*first.higher_pairs, *second.higher_pairs)
+                if (pair in first.higher_pairs) != (pair in second.higher_pairs)}
     return tuple(name for part in changed for name in (touching if part == "higher_pairs" else (part,)))
 
 
@@ -667,10 +667,10 @@ def balance_of(mechanism: Mechanism, driver: Driver) -> Symbol:
     if driver.turns:
         return Symbol("M", link=driver.link)
     pushing = [s for s in mechanism.slides if s.key in {d.key for d in mechanism.drivers}]
-    own = next(s for s in pushing if s.key == driver.key)
-    others = [s.pin for s in pushing if s.body == own.body and s is not own]
-    at = PointRef(own.pin, own.b if own.pin in others else "") if others and own.pin else None
-    return Symbol("F", at, link=own.body)
+    pair = next(s for s in pushing if s.key == driver.key)
+    others = [s.pin for s in pushing if s.body == pair.body and s is not pair]
+    at = PointRef(pair.pin, pair.b if pair.pin in others else "") if others and pair.pin else None
+    return Symbol("F", at, link=pair.body)
 
 
 def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:

@@ -436,9 +436,9 @@ def _turn_to_drawn_point(position: StatedPosition) -> bool:
         if body.turn is not None or len(body.own) != 1 or name in used or measured or not aimed:
             continue
         aims = [p for p, e in body.at.items() if e == "drawn"] + [g.toward for g in body.rails.values() if g.toward]
-        ways = [position.places[p] - position.places[body.own[0]] for p in aims
+        arms = [position.places[p] - position.places[body.own[0]] for p in aims
                 if p in position.places and body.own[0] in position.places]
-        arm = next((w for w in ways if abs(w) > position.tolerance), None)
+        arm = next((w for w in arms if abs(w) > position.tolerance), None)
         if arm is not None:
             body.turn, body.arm = arm / abs(arm), abs(arm)
             return True

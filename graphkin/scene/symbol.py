@@ -45,19 +45,19 @@ def forms_of_names(point: str, link: str, lax: bool = False) -> dict[str, str]:
     def part(name: str, must: bool = False) -> str:
         return rf"(?P<{name}>{point})(?:{at}(?P<{name}_link>{link})){'' if must else '?'}"
 
-    of, to, one, other = rf"(?P<of>{point})", rf"(?P<to>{point})", rf"(?P<link>{link})", rf"(?P<other>{link})"
+    of, to, first, second = rf"(?P<of>{point})", rf"(?P<to>{point})", rf"(?P<link>{link})", rf"(?P<other>{link})"
     forms = {
         "point": of,
         "points": rf"{part('of')}(?:{between('/')}{part('to')})?",
         "coincident": rf"{part('of', lax)}{between('/')}{part('to', lax)}",
         "two points": rf"{of}{between('/-')}{to}",
-        "link": one,
-        "link of link": rf"{one}(?:{between('/')}{other})?",
-        "pair": rf"{one}{between('/-')}{other}",
-        "links": rf"{one}{between('-/')}{other}",
+        "link": first,
+        "link of link": rf"{first}(?:{between('/')}{second})?",
+        "pair": rf"{first}{between('/-')}{second}",
+        "links": rf"{first}{between('-/')}{second}",
         "place": part("of"),
-        "link or joint": rf"{one}(?:{between('/')}{other})?(?:@{part('of')})?{plus}",
-        "of link": rf"{one}{plus}",
+        "link or joint": rf"{first}(?:{between('/')}{second})?(?:@{part('of')})?{plus}",
+        "of link": rf"{first}{plus}",
     }
     named = {
         "load": rf"(?P<name>{link}){plus}",

@@ -269,7 +269,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Number
         if beside:
             raise CallError.of(f"designs {key}", "changes more than dimensions", "sweep over it graphkin.sweep designs",
                                beside=listed([*beside]))
-    own = dimensions(scene)
+    given = dimensions(scene)
 
     def numbers(values: Mapping[str, Reals]) -> dict[Dimension, Complexes]:
         result: dict[Dimension, Complexes] = {}
@@ -281,14 +281,14 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Number
                 raise CallError.of(f"designs {key}", "found value", wanted, value=f"{of_key[int(np.argmax(bad))]:g}")
             for name, law in laws[key].items():
                 new = law(of_key)
-                result[name] = result[name] + (new - own[name]) if name in result else new
+                result[name] = result[name] + (new - given[name]) if name in result else new
         return result
 
     if len(keys) > 1:
         together = numbers({key: np.array([value]) for key, value in changed.items()})
         for name, expected in dimensions(_read(source, changed)).items():
-            mine = complex(together[name][0]) if name in together else own[name]
-            if abs(mine - expected) > 10 * SAME * max(abs(own[name]), abs(expected), scene.size):
+            mine = complex(together[name][0]) if name in together else given[name]
+            if abs(mine - expected) > 10 * SAME * max(abs(given[name]), abs(expected), scene.size):
                 raise CallError.of(f"designs {', '.join(keys)}", "act on together not side by side",
                                    "sweep over them graphkin.sweep designs", name=name[1])
     return numbers
@@ -307,8 +307,8 @@ def _read(source: Tables, values: Mapping[str, float]) -> Mechanism:
     try:
         return mechanism_of(applied(source, tuple(values), tuple(values.values())))
     except SceneError as error:
-        what = f"designs {', '.join(values)}"
-        raise CallError.of(what, "changed by itself the scene no longer fits", error=error.reason) from None
+        where = f"designs {', '.join(values)}"
+        raise CallError.of(where, "changed by itself the scene no longer fits", error=error.reason) from None
 
 
 def _laws(

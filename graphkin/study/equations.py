@@ -94,8 +94,8 @@ class Equations:
         row = 0
         for pair in (pair for element in structure.elements for pair in element.all_pairs):
             if pair.turns:
-                one, two = (structure.links[link].points[pair.point] for link in (pair.a, pair.b))
-                self.lines += [(row + k, pair.a, one, pair.b, two, self.frame, along, 0.0)
+                first, second = (structure.links[link].points[pair.point] for link in (pair.a, pair.b))
+                self.lines += [(row + k, pair.a, first, pair.b, second, self.frame, along, 0.0)
                                for k, along in enumerate((1 + 0j, 1j))]
             else:
                 self._along(row, pair, 1j * pair.guide.direction)

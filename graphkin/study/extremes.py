@@ -87,11 +87,11 @@ class Traced:
         return tuple(stretches)
 
     def furthest(self, sense: float, kind: str = "") -> Extreme | None:
-        """The extreme (of a kind) of the greatest value, with -1 for ``sense`` of the least; the first of equal ones.
+        """The extreme (of a kind) of the greatest value, with -1 for ``sense`` of the least; the first of equals.
         None where there is none, or none is known."""
-        own = [e for e in self.extremes if kind in ("", e.kind) and not math.isnan(e.value)]
-        most = max((sense * e.value for e in own), default=0.0)
-        return next((e for e in own if math.isclose(sense * e.value, most, rel_tol=EQUAL)), None)
+        candidates = [e for e in self.extremes if kind in ("", e.kind) and not math.isnan(e.value)]
+        most = max((sense * e.value for e in candidates), default=0.0)
+        return next((e for e in candidates if math.isclose(sense * e.value, most, rel_tol=EQUAL)), None)
 
     @property
     def least(self) -> Extreme | None:
@@ -140,8 +140,8 @@ class CurveParameter:
         if self.reach.full:
             return self.reach.ends
         hair = 2 * float(np.arcsin(np.sqrt(HAIR)))
-        one, two = (hair if away else 0.0 for away in self._away)
-        return one, float(np.pi) - two
+        low, high = (hair if away else 0.0 for away in self._away)
+        return low, float(np.pi) - high
 
     @cached_property
     def _away(self) -> tuple[bool, bool]:
@@ -223,7 +223,7 @@ def driver_value(reach: DriverRange, offset: float) -> float:
 
 def trace(reach: DriverRange, quantities: Sequence[Symbol]) -> tuple[Traced, ...]:
     """Find all extremes and zeros of quantities; a mechanism that is singular throughout has none."""
-    way = CurveParameter(reach)
+    axis = CurveParameter(reach)
     places = [q for q in quantities if q.is_position]
     rates = [q for q in quantities if not q.is_position]
     here: dict[bytes, Motion] = {}
@@ -231,16 +231,16 @@ def trace(reach: DriverRange, quantities: Sequence[Symbol]) -> tuple[Traced, ...
     def at(parameter: Array) -> Motion:
         key = parameter.tobytes()  # positions and rates are looked at on the same pieces at first
         if key not in here:
-            here[key] = reach.motion(way.offset(parameter), extended=False)
+            here[key] = reach.motion(axis.offset(parameter), extended=False)
         return here[key]
 
-    def resolved(own: Sequence[Symbol], floor: Array, weight: Array | None = None) -> list[Curve]:
+    def resolved(group: Sequence[Symbol], floor: Array, weight: Array | None = None) -> list[Curve]:
         def columns(parameter: Array) -> tuple[Array, Array]:
-            values, errors = zip(*(smooth_course(q, reach, at(parameter)) for q in own), strict=True)
+            values, errors = zip(*(smooth_course(q, reach, at(parameter)) for q in group), strict=True)
             return np.stack(values, axis=1), np.stack(errors, axis=1)
 
-        pieces = resolve(columns, *way.range, reach.full, floor, weight, way.seams)
-        return [Curve(q, pieces, k) for k, q in enumerate(own)]
+        pieces = resolve(columns, *axis.range, reach.full, floor, weight, axis.seams)
+        return [Curve(q, pieces, k) for k, q in enumerate(group)]
 
     # apart, because positions stay smooth where rates grow without bound
     curves: list[Curve] = []
@@ -250,9 +250,9 @@ def trace(reach: DriverRange, quantities: Sequence[Symbol]) -> tuple[Traced, ...
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(2.0 * q.measure.order - 1.0) * (2 if q.is_vector else 1) for q in rates])
         curves += resolved(rates, _floor(reach, rates), None if reach.full else power * _grow(reach, rates))
-    traced = _traced(way, curves) if reach.full else _beside_ends(reach, _traced(way, curves))
-    found = {t.quantity: t for t in traced if t.constant is None or np.isfinite(t.constant)}
-    return tuple(found[q] for q in quantities if q in found)
+    traced = _traced(axis, curves) if reach.full else _beside_ends(reach, _traced(axis, curves))
+    finite = {t.quantity: t for t in traced if t.constant is None or np.isfinite(t.constant)}
+    return tuple(finite[q] for q in quantities if q in finite)
 
 
 def _values(
@@ -297,17 +297,17 @@ def _usual(values: Array) -> float:
     return float(np.median(known)) if len(known) else 0.0
 
 
-def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
-    reach = way.reach
+def _traced(axis: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
+    reach = axis.reach
     start = reach.known
-    constant = _constant(way, curves)
-    found = []
+    constant = _constant(axis, curves)
+    traced = []
     for curve in (c for c in curves if c.quantity in constant):
         quantity = curve.quantity
         nothing = not quantity.is_position and smooth_course(quantity, reach, start)[0][0] == 0.0
-        found.append(Traced(quantity, (), (), 0.0 if nothing else float(course_of(quantity, reach, start)[0])))
+        traced.append(Traced(quantity, (), (), 0.0 if nothing else float(course_of(quantity, reach, start)[0])))
     moving = [c for c in curves if c.quantity not in constant]
-    for curve, extremes, zeros in zip(moving, _extremes(way, moving), _zeros(way, moving), strict=True):
+    for curve, extremes, zeros in zip(moving, _extremes(axis, moving), _zeros(axis, moving), strict=True):
         quantity = curve.quantity
         if quantity.is_unsigned:
             most = max((e.value for e in extremes if e.kind != "end"), default=0.0)
@@ -315,13 +315,13 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
             least = [e.offset for e in extremes if e.value == 0.0 and e.kind != "end"]
             zeros = np.union1d(least, zeros[np.isin(zeros, reach.seams)])
         at_zero = tuple(driver_value(reach, float(z)) for z in zeros)
-        found.append(Traced(quantity, extremes, at_zero, rests=_rests(way, curve, zeros)))
-    return found
+        traced.append(Traced(quantity, extremes, at_zero, rests=_rests(axis, curve, zeros)))
+    return traced
 
 
-def _rests(way: CurveParameter, curve: Curve, zeros: Array) -> tuple[bool, ...]:
+def _rests(axis: CurveParameter, curve: Curve, zeros: Array) -> tuple[bool, ...]:
     """Whether a curve is zero from each of its zeros (offsets) to the next: along a dwell."""
-    reach, (low, high) = way.reach, way.reach.ends
+    reach, (low, high) = axis.reach, axis.reach.ends
     at = zeros if reach.full else angles_between(zeros, low, high)
     following = np.append(at[1:], at[:1] + (high - low) if reach.full else at[-1:])
     between = at + np.linspace(0.0, 1.0, 5)[1:-1, None] * (following - at)
@@ -330,28 +330,28 @@ def _rests(way: CurveParameter, curve: Curve, zeros: Array) -> tuple[bool, ...]:
     return (*rests[:-1].tolist(), *(rests[-1:] & reach.full).tolist())
 
 
-def _zeros(way: CurveParameter, curves: Sequence[Curve]) -> list[Array]:
+def _zeros(axis: CurveParameter, curves: Sequence[Curve]) -> list[Array]:
     """Offsets at which curves are zero.  Near an end of the motion, where rounding grows without bound, a curve that it
     hides is zero too: there fifty digits tell."""
-    found = [way.offset(way.inside(curve.zeros)) for curve in curves]
-    if way.reach.full:
-        return found
-    low, high = way.reach.ends
-    steps = [ASIDE * np.minimum(zeros - low, high - zeros) for zeros in found]
-    places = [np.concatenate([zeros, zeros - step, zeros + step]) for zeros, step in zip(found, steps, strict=True)]
-    values = _values(way.reach, [c.quantity for c in curves], places, extended=True)
+    offsets = [axis.offset(axis.inside(curve.zeros)) for curve in curves]
+    if axis.reach.full:
+        return offsets
+    low, high = axis.reach.ends
+    steps = [ASIDE * np.minimum(zeros - low, high - zeros) for zeros in offsets]
+    places = [np.concatenate([zeros, zeros - step, zeros + step]) for zeros, step in zip(offsets, steps, strict=True)]
+    values = _values(axis.reach, [c.quantity for c in curves], places, extended=True)
     zero = [
-        np.isin(zeros, way.reach.seams) | ~(np.abs(at) > ZERO * np.max(np.abs(beside), axis=0))
-        for zeros, (at, *beside) in zip(found, map(Curve.about_zeros, curves, values), strict=True)
+        np.isin(zeros, axis.reach.seams) | ~(np.abs(at) > ZERO * np.max(np.abs(beside), axis=0))
+        for zeros, (at, *beside) in zip(offsets, map(Curve.about_zeros, curves, values), strict=True)
     ]
-    return [zeros[is_one] for zeros, is_one in zip(found, zero, strict=True)]
+    return [zeros[is_one] for zeros, is_one in zip(offsets, zero, strict=True)]
 
 
 def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:
     """Curves over a range that ends, with what goes beyond their extremes, and what grows without bound."""
     low, high = reach.ends
     part = np.concatenate([NEAR, np.sin(np.linspace(0.0, np.pi / 2, SAMPLES)[1:-1]) ** 2, 1.0 - NEAR[::-1]])
-    motion, found = reach.motion(low + (high - low) * part), list[Traced]()
+    motion, traced = reach.motion(low + (high - low) * part), list[Traced]()
     for curve in curves:
         values = course_of(curve.quantity, reach, motion)
         size, known = np.abs(values), values[np.isfinite(values)]
@@ -363,68 +363,68 @@ def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:
         )
         grows = size[0] > GROWS * size[1], size[-1] > GROWS * size[-2]
         unbounded = curve.constant is None and any(np.logical_and(grows, reach.limited))
-        found.append(replace(curve, extremes=extremes, unbounded=unbounded))
-    return found
+        traced.append(replace(curve, extremes=extremes, unbounded=unbounded))
+    return traced
 
 
-def _constant(way: CurveParameter, curves: Sequence[Curve]) -> set[Symbol]:
+def _constant(axis: CurveParameter, curves: Sequence[Curve]) -> set[Symbol]:
     """Quantities that do not change; of rates those that are the same wherever they are finite."""
-    found = {c.quantity for c in curves if c.pieces.is_constant(c.k)}
-    low, high = way.range
-    motion = way.reach.motion(way.offset(np.linspace(low, high, 34)[1:-1]), extended=False)
+    constant = {c.quantity for c in curves if c.pieces.is_constant(c.k)}
+    low, high = axis.range
+    motion = axis.reach.motion(axis.offset(np.linspace(low, high, 34)[1:-1]), extended=False)
     for quantity in (c.quantity for c in curves if not c.quantity.is_position):
-        values, errors = smooth_course(quantity, way.reach, motion)
+        values, errors = smooth_course(quantity, axis.reach, motion)
         known = np.isfinite(values)
         values, errors = values[known], np.broadcast_to(errors, known.shape)[known]
         room = 1e-12 * np.max(np.abs(values), initial=0.0) + np.where(np.isfinite(errors), errors, 0.0)
         if len(values) == 0 or np.all(np.abs(values - np.median(values)) <= room):
-            found.add(quantity)
-    return found
+            constant.add(quantity)
+    return constant
 
 
-def _polished(way: CurveParameter, curves: Sequence[Curve], turns: Sequence[Sequence[Turn]]) -> list[Array]:
+def _polished(axis: CurveParameter, curves: Sequence[Curve], turns: Sequence[Sequence[Turn]]) -> list[Array]:
     """Offsets of the turns; of angles and travels to the last digits, by Newton's method on the rate by the driver."""
-    reach = way.reach
+    reach = axis.reach
     low, high = reach.ends
-    found = [way.offset(np.array([turn.place for turn in own])) for own in turns]
-    which = [k for k, c in enumerate(curves) if c.quantity.is_of_output and len(found[k])]
+    offsets = [axis.offset(np.array([turn.place for turn in reversals])) for reversals in turns]
+    which = [k for k, c in enumerate(curves) if c.quantity.is_of_output and len(offsets[k])]
     both = [q for k in which for q in rates_of(curves[k].quantity)[1:]]
-    rates = _values(reach, both, [found[k] for k in which for _ in range(2)], unit=True) if which else []
+    rates = _values(reach, both, [offsets[k] for k in which for _ in range(2)], unit=True) if which else []
     for k, rate, second in zip(which, rates[::2], rates[1::2], strict=True):
         inner = ~np.array([turn.at_seam for turn in turns[k]])
         with np.errstate(all="ignore"):
             step = rate / second
         step = np.where(inner & (np.abs(step) < 1e-5 * (high - low)), step, 0.0)
-        found[k] = np.clip(found[k] - step, low, high)
-    return found
+        offsets[k] = np.clip(offsets[k] - step, low, high)
+    return offsets
 
 
-def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extreme, ...]]:
+def _extremes(axis: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extreme, ...]]:
     """The extremes of each curve, and of a position its values where the motion ends (not where it is followed no
     further)."""
-    reach = way.reach
+    reach = axis.reach
     low, high = reach.ends
     # a rate that rests along a dwell is at no extreme there; a size is, for it is nowhere less
     turns = [
         [turn for turn in c.pieces.turns(c.k, c.quantity.is_position or c.quantity.is_vector)
-         if turn.at_seam or len(way.inside(np.array([turn.place])))]
+         if turn.at_seam or len(axis.inside(np.array([turn.place])))]
         for c in curves
     ]
-    offsets = _polished(way, curves, turns)
+    offsets = _polished(axis, curves, turns)
     # only what is printed takes all its digits
     values = _values(reach, [c.quantity for c in curves], offsets, extended=True)
-    found: list[tuple[Extreme, ...]] = []
-    for curve, own, places, fine in zip(curves, turns, offsets, values, strict=True):
+    extremes: list[tuple[Extreme, ...]] = []
+    for curve, reversals, places, fine in zip(curves, turns, offsets, values, strict=True):
         ends: list[list[Extreme]] = [[], []]
         if not reach.full and curve.quantity.is_position:
-            ends = [[Extreme("end", at, driver_value(reach, at), way.end(curve, k))] if limited else []
+            ends = [[Extreme("end", at, driver_value(reach, at), axis.end(curve, k))] if limited else []
                     for k, (at, limited) in enumerate(zip((low, high), reach.limited, strict=True))]
         inner = []
-        for turn, place, value in zip(own, places.tolist(), fine.tolist(), strict=True):
+        for turn, place, value in zip(reversals, places.tolist(), fine.tolist(), strict=True):
             # at a jump both values stand at one place
             # and where a group stands in line, at a change point, the solver refuses
             value = of_smooth(curve.quantity, turn.value) if turn.at_seam or np.isnan(value) else value
             kind: Literal["max", "min"] = "max" if turn.sense > 0 else "min"
             inner.append(Extreme(kind, place, driver_value(reach, place), value, rest=turn.rest))
-        found.append((*ends[0], *inner, *ends[1]))
-    return found
+        extremes.append((*ends[0], *inner, *ends[1]))
+    return extremes

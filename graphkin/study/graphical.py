@@ -128,7 +128,7 @@ def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Symbol, ...]]:
 
 
 def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Symbol, Symbol]:
-    """The given quantity, and the derived or integrated one.
+    """The given quantity, and its derivative or integral.
 
     Raises
     ------
@@ -277,8 +277,8 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
         entries = ((CURVE, f"by {chords.way}"), (CHORD, "chords"), (EXACT, "analytic curve"))
         legend = [(look(stroke), word(key, language)) for stroke, key in entries]
         add_legend(figure, complex(MARGIN, end + 10.0), legend)
-        told = rich(say(Phrase("check bar", length="50 mm"), language), 2.5)
-        add_words(figure, *check_bar(complex(WIDTH - MARGIN - 50.0, end + 16.0), told))
+        check = rich(say(Phrase("check bar", length="50 mm"), language), 2.5)
+        add_words(figure, *check_bar(complex(WIDTH - MARGIN - 50.0, end + 16.0), check))
 
     return ChartPage(
         WIDTH, end + 22.0, paint, f"{title.plain()}: {scene.question.title_in(language)}",

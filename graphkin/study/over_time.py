@@ -103,13 +103,13 @@ class TimeAxis(Axis):
     def extremes(self, quantity: Symbol, places: Array, values: Array) -> tuple[Extreme, Extreme]:
         """As of every axis; just before a seam of laws at the seam itself, with the value to which the piece comes;
         infinite where a rate grows without bound, towards where the motion ends or begins within the time."""
-        found = {e.kind: self._at_seam(quantity, e) for e in super().extremes(quantity, places, values)}
+        extremes = {e.kind: self._at_seam(quantity, e) for e in super().extremes(quantity, places, values)}
         for stop in () if quantity.is_position else self.stops:
             far, near = self.values(quantity, stop + BESIDE * (self.ends[1] - self.ends[0])).reshape(2, 2)
             for value in near[np.abs(near) > GROWS * np.abs(far)].tolist():
                 kind: Literal["max", "min"] = "max" if value > 0 else "min"
-                found[kind] = Extreme(kind, stop, stop, math.copysign(math.inf, value))
-        return found["max"], found["min"]
+                extremes[kind] = Extreme(kind, stop, stop, math.copysign(math.inf, value))
+        return extremes["max"], extremes["min"]
 
     def _at_seam(self, quantity: Symbol, extreme: Extreme) -> Extreme:
         steps = np.arange(1.0, 4.0)

@@ -197,8 +197,8 @@ class PreparedMechanisms:
         """Values of an angle driver over a turn, shape (n,), or (designs, n) where they differ (rad)."""
         if self.given.keys().isdisjoint({("value", 0), ("rate", 0)}):
             return self.ready.range.grid(n).values
-        start, way = (np.broadcast_to(x, (self.count,)) for x in (self._start, self._way))
-        return start[:, None] + way[:, None] / n * np.arange(n)
+        start, travel = (np.broadcast_to(x, (self.count,)) for x in (self._start, self._way))
+        return start[:, None] + travel[:, None] / n * np.arange(n)
 
     def _turns(self, which: Array, n: int) -> tuple[Array, Array]:
         """Cosines and sines of the driver at n positions of each design, shape (designs, n)."""

@@ -108,12 +108,12 @@ def rates_of(quantity: Symbol) -> tuple[Symbol, Symbol, Symbol]:
 def all_that_moves(structure: Structure) -> tuple[Symbol, ...]:
     """The quantities of all that moves: each pin once, and each point under a sliding pin."""
     scene, slides = structure.scene, own_slides(structure.scene, all_slides(structure))
-    found = [q for link in scene.links for q in link_quantities(link.name)]
+    moving = [q for link in scene.links for q in link_quantities(link.name)]
     for ref, _ in listed_points(scene, slides):
         if ref.link or ref.point not in scene.frame.points:
-            found += rates_of(Symbol("place", ref))[1 if ref.link else 0 :]
-    found += [q for slide in slides for q in slide_quantities(slide.key)]
-    return *dict.fromkeys(found), *forces_named(scene)
+            moving += rates_of(Symbol("place", ref))[1 if ref.link else 0 :]
+    moving += [q for slide in slides for q in slide_quantities(slide.key)]
+    return *dict.fromkeys(moving), *forces_named(scene)
 
 
 def motion_table(
@@ -138,8 +138,8 @@ def motion_table(
         # a driver value is given, not found: without the last digit that the conversion to radians cost it
         driven = np.round(unit.of(value), 11) if driver.measure == "angle" else unit.of(value)
         columns.append(Column(f"driver_{driver.key}", driven, unit.text))
-    for quantity, own in zip(shown, parts, strict=True):
-        columns += columns_of(quantity, scene, own, sizes)
+    for quantity, components in zip(shown, parts, strict=True):
+        columns += columns_of(quantity, scene, components, sizes)
     return Table((*columns, word_column("status", status, n), word_column("why", why, n)), ("position",))
 
 

@@ -172,8 +172,8 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
         part = predicted[Symbol("omega", link=follower)].deviation / abs(omega)
         return Answer((part if math.isfinite(part) else math.nan,), "sharp crossing" in remarks)
 
-    computed = [ErrorLaw(f"{what} closed form", theory=slope, window=NEARBY)
-                for what, slope in (("place", -0.5), ("velocity", -1.0), ("acceleration", -1.0))]
+    computed = [ErrorLaw(f"{measure} closed form", theory=slope, window=NEARBY)
+                for measure, slope in (("place", -0.5), ("velocity", -1.0), ("acceleration", -1.0))]
     newton = ErrorLaw("velocity Newton", theory=-1.0, window=NEARBY)
     board = ErrorLaw("velocity exact drawing", theory=-1.0, window=NEARBY)
     # a rate goes as one over the half chord h of the crossing: an error u of it is one of 2 u in the square of h, and
@@ -470,8 +470,8 @@ def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
         return Answer(right.off(complex(bar.u), *map(float, bar.rates)))
 
     laws = measured([ErrorLaw(name, theory=-1.0, window=BESIDE_PIVOT) for name in BAR_LAWS], x, map(closed, x), samples)
-    growing = [ErrorLaw(f"size {what}", theory=slope, window=(1e-12, 0.03), lost=math.inf)
-               for what, slope in (("Coriolis", -1.0), ("bar", -2.0))]
+    growing = [ErrorLaw(f"size {size}", theory=slope, window=(1e-12, 0.03), lost=math.inf)
+               for size, slope in (("Coriolis", -1.0), ("bar", -2.0))]
     growth = measured(growing, x, sizes, samples)
     coriolis, bar = (true_minus(f"{law.slope:.2f}") for law in growth)
     fates = _fates("fate near ground", doubles=laws[2].worst, solved=max(stated, default=math.nan))

@@ -501,8 +501,8 @@ def _rows(
 def _outcome(number: int, table: Table, cells: Mapping[str, float | str | None]) -> Outcome:
     """The outcome of the rows of a design, by the first without values."""
     bad = np.flatnonzero(table["status"] != "ok")
-    told = bad[0] if len(bad) else 0
-    return Outcome(number, table["status"][told], table["why"][told], cells, len(table) - len(bad))
+    row = bad[0] if len(bad) else 0
+    return Outcome(number, table["status"][row], table["why"][row], cells, len(table) - len(bad))
 
 
 def _like(other: Table, table: Table) -> Table:

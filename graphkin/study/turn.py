@@ -147,14 +147,14 @@ def loops(structure: Structure) -> tuple[BasicLoop, ...]:
     def place(name: str) -> int:
         return order.get(name, -1)
 
-    found: list[BasicLoop] = []
+    basic: list[BasicLoop] = []
     for group in structure.groups:
         if isinstance(group, Dyad) and all(len(body.links) == 1 for body in group.bodies):
             loop = _FINDERS[group.kind](structure, group)
             if loop is not None:
                 links = (*sorted(loop.links, key=place), frame)
-                found.append(replace(loop, links=links, turns=tuple(sorted(loop.turns, key=place))))
-    return tuple(found)
+                basic.append(replace(loop, links=links, turns=tuple(sorted(loop.turns, key=place))))
+    return tuple(basic)
 
 
 def _pivot(structure: Structure, link: str) -> str | None:
@@ -172,9 +172,9 @@ def _mate(structure: Structure, group: Dyad, joint: Pair) -> str:
     return next((n for n in others if _pivot(structure, n) is not None), others[0])
 
 
-def _between(structure: Structure, link: str, one: str, two: str) -> float:
+def _between(structure: Structure, link: str, first: str, second: str) -> float:
     points = structure.links[link].points
-    return abs(points[one] - points[two])
+    return abs(points[first] - points[second])
 
 
 def _on_crank(structure: Structure, group: Dyad) -> tuple[tuple[Pair, str], tuple[Pair, str], str, str] | None:
@@ -467,11 +467,11 @@ def ranges(reach: DriverRange) -> tuple[Stretch, ...]:
         return (Stretch(0.0, 2 * np.pi * reach.turns),)
     low, high = sorted(reach.value(np.array(reach.ends)).tolist())
     below, above = reach.limited if reach.sense > 0 else reach.limited[::-1]
-    own = Stretch(low, high, (below, above))
+    stretch = Stretch(low, high, (below, above))
     dyads = [*reach.structure.dyads]
     if not dyads or not_searched(reach):
-        return (own,)
-    return own, *_elsewhere(reach, dyads, own)
+        return (stretch,)
+    return stretch, *_elsewhere(reach, dyads, stretch)
 
 
 def not_searched(reach: DriverRange) -> tuple[str, ...]:
@@ -487,21 +487,21 @@ def not_searched(reach: DriverRange) -> tuple[str, ...]:
     return tuple(name for links in (*larger, *many) for name in links)
 
 
-def _elsewhere(reach: DriverRange, dyads: list[int], own: Stretch) -> list[Stretch]:
+def _elsewhere(reach: DriverRange, dyads: list[int], reached: Stretch) -> list[Stretch]:
     turning = reach.driver.turns
-    wide = max(FAR * reach.scene.size, 2 * abs(own.low), 2 * abs(own.high))
-    first, last = (own.low + BESIDE, own.low + BESIDE + 2 * np.pi) if turning else (-wide, wide)
-    found = assembled(Path.of_driver(reach.structure, reach.start), dyads, first, last, {})
+    wide = max(FAR * reach.scene.size, 2 * abs(reached.low), 2 * abs(reached.high))
+    first, last = (reached.low + BESIDE, reached.low + BESIDE + 2 * np.pi) if turning else (-wide, wide)
+    stretches = assembled(Path.of_driver(reach.structure, reach.start), dyads, first, last, {})
     joined = list[tuple[float, float]]()
-    for low, high in sorted((stretch.low, stretch.high) for _, stretch in found):
+    for low, high in sorted((stretch.low, stretch.high) for _, stretch in stretches):
         if joined and low < joined[-1][1] - BESIDE:
             joined[-1] = joined[-1][0], max(high, joined[-1][1])
         else:
             joined.append((low, high))
     # what the motion reaches stands by itself, of a driver that turns at the beginning
-    parts = [part for low, high in joined for part in ((low, min(high, own.low)), (max(low, own.high), high))]
+    parts = [part for low, high in joined for part in ((low, min(high, reached.low)), (max(low, reached.high), high))]
     # beyond where it is followed no further the motion goes on
-    open_ends = [end for end, limited in zip((own.low, own.high), own.ends, strict=True) if not limited]
+    open_ends = [end for end, limited in zip((reached.low, reached.high), reached.ends, strict=True) if not limited]
     parts = [
         (low, high) for low, high in parts
         if high - low > 2 * BESIDE and not any(end in (low, high) for end in open_ends)

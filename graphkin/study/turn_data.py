@@ -18,26 +18,26 @@ from graphkin.words import word
 def _flywheel(turn: TurnStudy) -> dict[str, Json]:
     """The flywheel, if the scene asks for one, or the reason why there is none: in the scene's units, works in force x
     metre."""
-    units, found = turn.scene.units, turn.flywheel
-    if found is None:
+    units, flywheel = turn.scene.units, turn.flywheel
+    if flywheel is None:
         return {}
-    if isinstance(found, Unsolvable):
-        return {"flywheel": {"excess_W": None, "J_F": None, "why": found.why}}
+    if isinstance(flywheel, Unsolvable):
+        return {"flywheel": {"excess_W": None, "J_F": None, "why": flywheel.why}}
     areas: list[Json] = []
-    for offsets, work in found.areas.items():
+    for offsets, work in flywheel.areas.items():
         first, last = (_driver(turn.scene, value) for value in turn.reach.value(np.array(offsets)).tolist())
         areas.append({"from": first, "to": last, "work": work / units.newtons})
     return {
         "flywheel": {
-            "on": found.link,
-            "delta": found.delta,
-            "driving_moment": found.driving / units.newtons,
-            "work": found.work / units.newtons,
+            "on": flywheel.link,
+            "delta": flywheel.delta,
+            "driving_moment": flywheel.driving / units.newtons,
+            "work": flywheel.work / units.newtons,
             "areas": areas,
-            "slowest": _driver(turn.scene, driver_value(turn.reach, found.slowest)),
-            "fastest": _driver(turn.scene, driver_value(turn.reach, found.fastest)),
-            "excess_W": found.excess / units.newtons,
-            "J_F": found.inertia / units.of("inertia").si,
+            "slowest": _driver(turn.scene, driver_value(turn.reach, flywheel.slowest)),
+            "fastest": _driver(turn.scene, driver_value(turn.reach, flywheel.fastest)),
+            "excess_W": flywheel.excess / units.newtons,
+            "J_F": flywheel.inertia / units.of("inertia").si,
         }
     }
 
@@ -102,13 +102,13 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
     from graphkin.study.force_diagrams import force_extremes  # it loads the drawing board
 
     try:
-        found = force_extremes(turn.reach)
+        forces = force_extremes(turn.reach)
     except Unsolvable as stop:
         return {"forces": {}, "why_no_forces": stop.why}
     return {"forces": {
         name: {"unit": quantity.unit(turn.scene.units).text,
                "extremes": [_extreme(turn, quantity, e, "grows without bound there") for e in extremes]}
-        for name, (quantity, extremes) in found.items()
+        for name, (quantity, extremes) in forces.items()
     }}
 
 
@@ -164,8 +164,8 @@ def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
     """A row of a table of designs: strokes and swings (deg), K, the least transmission angle (deg) and its place."""
     scene = turn.scene
     cells: dict[str, float | str | None] = {}
-    own, unit = turn.ranges[0], scene.unit_of(scene.drivers[0])
-    for name, value, limited in zip(("low", "high"), (own.low, own.high), own.ends, strict=True):
+    stretch, unit = turn.ranges[0], scene.unit_of(scene.drivers[0])
+    for name, value, limited in zip(("low", "high"), (stretch.low, stretch.high), stretch.ends, strict=True):
         cells[f"range_{name} ({unit.text})"] = unit.of(value) if limited or turn.reach.full else None
     for output in turn.outputs:
         quantity, stroke, back = output.quantity, output.stroke, turn.quick_return(output)
