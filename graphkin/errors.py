@@ -65,10 +65,10 @@ class Problem:
 
     def text(self, language: str = "en") -> str:
         """The problem in a sentence of a language."""
-        where, found = (printable(_shortened(say(part, language))) for part in (self.where, self.found))
+        where, fault = (printable(_shortened(say(part, language))) for part in (self.where, self.found))
         # what would be right may be several lines, to be pasted
         wanted = "\n".join(map(printable, _shortened(say(self.wanted, language)).split("\n")))
-        text = word("where and what", language).format(where=where, found=found)
+        text = word("where and what", language).format(where=where, found=fault)
         return word("and what is wanted", language).format(text=text, wanted=wanted) if wanted else text
 
 
@@ -164,7 +164,7 @@ def printable(text: str) -> str:
     >>> printable("a title \x1b[2J")
     'a title \\\\x1b[2J'
     """
-    return _CONTROL.sub(lambda found: found[0].encode("unicode_escape", "surrogatepass").decode(), text)
+    return _CONTROL.sub(lambda match: match[0].encode("unicode_escape", "surrogatepass").decode(), text)
 
 
 def unfit(where: Wording, value: object, wanted: Wording, **gaps: object) -> CallError:

@@ -36,8 +36,8 @@ def json_text(data: object) -> str:
     """
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, default=str)
     if "-0.0" in text:
-        text = _WORD_OR_ZERO.sub(lambda found: "0.0" if found[0] == "-0.0" else found[0], text)
-    return re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text)
+        text = _WORD_OR_ZERO.sub(lambda match: "0.0" if match[0] == "-0.0" else match[0], text)
+    return re.sub("[\x7f-\x9f]", lambda match: f"\\u{ord(match[0]):04x}", text)
 
 
 def path_of(place: str | os.PathLike[str]) -> Path:

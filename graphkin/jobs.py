@@ -122,13 +122,13 @@ class Checkpoints:
         if not path.is_file():
             return None
         with open(path, "rb") as stream:
-            told, line = stream.readline(), stream.readline()
+            head, line = stream.readline(), stream.readline()
             digest = hashlib.sha256(line)
             while block := stream.read(1 << 20):
                 digest.update(block)
-        if told != digest.hexdigest().encode() + b"\n":
+        if head != digest.hexdigest().encode() + b"\n":
             return None
-        return FinishedPiece(json.loads(line), path, len(told) + len(line))
+        return FinishedPiece(json.loads(line), path, len(head) + len(line))
 
     def close(self) -> None:
         """Remove them: the job is done."""

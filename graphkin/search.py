@@ -138,15 +138,15 @@ def strokes_between(
     ----------
     lows, highs : the place of each in the order of the motion, and the way before it on which the output rests
     """
-    both = [(place % cycle, rest, side, k) for side, own in enumerate((lows, highs))
-            for k, (place, rest) in enumerate(own)]
+    both = [(place % cycle, rest, side, k) for side, extremes in enumerate((lows, highs))
+            for k, (place, rest) in enumerate(extremes)]
     both.sort()
-    ways, leaves = [0.0, 0.0], dict[int, int]()
+    travels, leaves = [0.0, 0.0], dict[int, int]()
     for (place, _, side, k), (following, rest, other, _) in pairwise([*both, both[0]]):
         if other != side:
-            ways[other] += (following - place) % cycle - rest
+            travels[other] += (following - place) % cycle - rest
             leaves.setdefault(side, k)
-    return Strokes(leaves[0], leaves[1], ways[1], ways[0])
+    return Strokes(leaves[0], leaves[1], travels[1], travels[0])
 
 
 def greatest_and_least(
@@ -154,7 +154,7 @@ def greatest_and_least(
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Place and value of the greatest and of the least value of a sampled course over growing places, each sought
     between the neighbours of every sample beside which it may lie."""
-    found, last = [], len(places) - 1
+    extremes, last = [], len(places) - 1
     for sign in (-1.0, 1.0):
         course = sign * values
         k = int(np.nanargmin(course))
@@ -169,8 +169,8 @@ def greatest_and_least(
             near, value = least_value(lambda at, by=sign: by * function(at), low, high, within=within)  # type: ignore[misc]
             if value < least - rounding[dip]:
                 place, least = near, value
-        found.append((place, sign * least))
-    return found[0], found[1]
+        extremes.append((place, sign * least))
+    return extremes[0], extremes[1]
 
 
 def places_between(angle: Array, low: float, high: float) -> Array:
@@ -188,11 +188,11 @@ def angles_between(places: Array, low: float, high: float) -> Array:
 def extrapolated(values: Sequence[float], steps: Sequence[float]) -> tuple[float, float]:
     """The value at 0 of the polynomial through values at steps, and how far the last of them moves it (Neville's
     scheme)."""
-    found, before = [*values], values[0]
-    for k in range(1, len(found)):
-        before = found[0]
-        found = [(a * y - b * x) / (y - x) for a, b, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
-    return found[0], abs(found[0] - before)
+    column, before = [*values], values[0]
+    for k in range(1, len(column)):
+        before = column[0]
+        column = [(a * y - b * x) / (y - x) for a, b, x, y in zip(column, column[1:], steps, steps[k:], strict=False)]
+    return column[0], abs(column[0] - before)
 
 
 POINTS = 24
@@ -269,17 +269,17 @@ class Pieces:
         """Parameters at which a curve is zero, in increasing order; of a stretch along which it is zero, the ends.  A
         curve without a weight may be looked at from another ``level``."""
         coefficients = self.coefficients[:, :, curve] - level * np.eye(1, POINTS)
-        found = self._roots(coefficients, self.scale[curve], self.doubt[:, curve])
+        roots = self._roots(coefficients, self.scale[curve], self.doubt[:, curve])
         if not len(self.seams):
-            return found
+            return roots
         whole = self.high[-1] - self.low[0]
         nothing = np.abs(self.levels(curve) - level).min(axis=0) <= NOTHING * self.scale[curve]
         for seam in self.seams[nothing]:
             # several roots at one end are found apart, by the root of the rounding
-            distance = np.abs(found - seam)
+            distance = np.abs(roots - seam)
             distance = np.minimum(distance, whole - distance) if self.periodic else distance
-            found = np.append(found[distance > CLOSE * whole], seam)
-        return np.sort(found)
+            roots = np.append(roots[distance > CLOSE * whole], seam)
+        return np.sort(roots)
 
     def near_zero(self, curve: int, within: float) -> tuple[Array, Array]:
         """Zeros and extremes of a curve from the pieces in which it may come within ``within`` of zero; without
@@ -326,8 +326,8 @@ class Pieces:
         values, *around = self.at(np.concatenate([places[None], beside]), curve)
         # 1 where the curve is greater at a place than beside it, -1 where it is less, 0 where rounding does not tell
         more = (values - np.stack(around)).reshape(2, 2, -1)
-        told = np.abs(more) > STILL * np.maximum(self.scale[curve], np.abs(values))
-        sides, farther = np.where(told, np.sign(more), 0.0)
+        certain = np.abs(more) > STILL * np.maximum(self.scale[curve], np.abs(values))
+        sides, farther = np.where(certain, np.sign(more), 0.0)
         rises, falls = np.where(sides.all(axis=0), sides, farther)
         turning = (rises == falls) & (np.abs(rises) == 1.0)
         at_seams = list[Turn]()
@@ -419,15 +419,15 @@ class Pieces:
         # a piece that is nothing but rounding has no roots
         look = (np.abs(coefficients[:, 0]) <= rest + rounding) & (rest > np.maximum(rounding, doubt))
         pieces = zip(self.low[look], self.high[look], coefficients[look], strict=True)
-        found = [float((low + high) / 2 + (high - low) / 2 * x)
+        roots = [float((low + high) / 2 + (high - low) / 2 * x)
                  for low, high, c in pieces for x in _real_roots(c, rounding)]
-        found += self._crossings(coefficients, FLAT * np.maximum(rounding, doubt), found)
-        if len(found) > MOST_ROOTS:
+        roots += self._crossings(coefficients, FLAT * np.maximum(rounding, doubt), roots)
+        if len(roots) > MOST_ROOTS:
             return np.zeros(0)
-        found.sort()
+        roots.sort()
         kept: list[float] = []
         whole = self.high[-1] - self.low[0]
-        for t in found:
+        for t in roots:
             distance = t - kept[-1] if kept else np.inf
             if distance <= BESIDE * whole and self._unsure(coefficients, doubt, t - distance / 2):
                 kept[-1] = t - distance / 2  # rounding has parted one root
@@ -469,22 +469,22 @@ class Pieces:
         pieces = np.repeat(np.arange(len(low)), POINTS)
         places = (((low + high)[:, None] + (high - low)[:, None] * _NODES) / 2).ravel()
         at_nodes = (_VALUES[:, : coefficients.shape[1]] * coefficients[which][:, None]).sum(axis=2)
-        told = np.where(np.abs(at_nodes) > noise[which][:, None], at_nodes, 0.0).ravel()
-        ends, found = np.flatnonzero(told), list[float]()
-        turning = (told[ends[1:]] * told[ends[:-1]] < 0) & (pieces[ends[1:]] - pieces[ends[:-1]] < 2)
+        signed = np.where(np.abs(at_nodes) > noise[which][:, None], at_nodes, 0.0).ravel()
+        ends, crossings = np.flatnonzero(signed), list[float]()
+        turning = (signed[ends[1:]] * signed[ends[:-1]] < 0) & (pieces[ends[1:]] - pieces[ends[:-1]] < 2)
         for i, k in zip(ends[:-1][turning].tolist(), ends[1:][turning].tolist(), strict=True):
             first, last = places[i], places[k]
             if ((known > first - SAME * whole) & (known < last + SAME * whole)).any():
                 continue
             for _ in range(MOST_DEPTH):
                 inner = np.linspace(first, last, POINTS)
-                value = values(inner, np.where(inner > high[pieces[i]], pieces[k], pieces[i])) * np.sign(told[k])
+                value = values(inner, np.where(inner > high[pieces[i]], pieces[k], pieces[i])) * np.sign(signed[k])
                 first, last = inner[value < 0][-1], inner[value > 0][0]
             # where a curve jumps, it crosses zero without being zero
-            largest = np.abs(told[(pieces == pieces[i]) | (pieces == pieces[k])]).max()
+            largest = np.abs(signed[(pieces == pieces[i]) | (pieces == pieces[k])]).max()
             if value[-1] - value[0] < CONTINUOUS * largest + 4 * noise[which[[pieces[i], pieces[k]]]].max():
-                found.append(float(first + last) / 2)
-        return found
+                crossings.append(float(first + last) / 2)
+        return crossings
 
 
 def _real_roots(c: Array, rounding: float) -> list[float]:

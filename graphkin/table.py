@@ -105,10 +105,10 @@ class Column:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Column):
             return NotImplemented
-        one, two = (c.values for c in (self, other))
-        floats = one.dtype.kind == two.dtype.kind == "f"
+        first, second = (c.values for c in (self, other))
+        floats = first.dtype.kind == second.dtype.kind == "f"
         said = all(getattr(self, k) == getattr(other, k) for k in ("name", "unit", "symbol", "form"))
-        return said and np.array_equal(one, two, equal_nan=floats)
+        return said and np.array_equal(first, second, equal_nan=floats)
 
     def __hash__(self) -> int:
         return hash((self.name, self.unit, len(self.values)))

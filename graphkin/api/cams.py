@@ -60,9 +60,9 @@ class CamMade:
             slid, turned = (0.0, off.lift) if self.cam.turns else (off.lift, 0.0)
             most = f"{max(off.pitch, off.profile, slid) / self.mechanism.units.metres:.3g}"
             angle = f"{math.degrees(max(off.pressure, turned)):.3g}"
-            found = Phrase("is drawn off the computed cam", most=most, unit=self.mechanism.units.length, angle=angle)
+            fault = Phrase("is drawn off the computed cam", most=most, unit=self.mechanism.units.length, angle=angle)
             said = Phrase("no paper is written please report this scene")
-            raise Disagreement(Problem(f"cams.{self.cam.link}", found, said))
+            raise Disagreement(Problem(f"cams.{self.cam.link}", fault, said))
         return sheet
 
     @cached_property
@@ -276,7 +276,7 @@ class Cams(OfScene, Result):
             "title": self.mechanism.question.title,
             "ok": self.ok,
             "units": {"length": self.mechanism.units.length, "angle": "rad"},
-            "cams": {one.cam.link: one.data for one in self.made},
+            "cams": {made.cam.link: made.data for made in self.made},
             "discs": {disc.contact: self._disc(disc) for disc in self.discs},
         }
 

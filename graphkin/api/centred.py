@@ -42,10 +42,10 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     language, centres, scene = centred.spoken, centred.centres, centred.mechanism
     letters = Notation(centred.convention or scene.question.sheet.convention)  # type: ignore[arg-type]
 
-    def name(thing: object) -> str:
-        if isinstance(thing, PointRef):
-            return thing.point
-        return letters.centre(thing).plain("") if isinstance(thing, tuple) else str(thing)
+    def name(part: object) -> str:
+        if isinstance(part, PointRef):
+            return part.point
+        return letters.centre(part).plain("") if isinstance(part, tuple) else str(part)
 
     rows = []
     for centre in centres.found:
@@ -301,20 +301,20 @@ def centres(
 
     Examples
     --------
-    >>> found = centres("cam-eccentric-flat-rocker")
-    >>> [round(x, 3) for x in found.data["centres"]["1-2"]["point"]]
+    >>> centred = centres("cam-eccentric-flat-rocker")
+    >>> [round(x, 3) for x in centred.data["centres"]["1-2"]["point"]]
     [-28.603, 0.0]
-    >>> round(found.data["velocities"]["omega_2"]["by_centres"], 5)
+    >>> round(centred.data["velocities"]["omega_2"]["by_centres"], 5)
     2.63374
     """
     known_words(formats, language, convention, known_languages=ON_SHEETS)
     given, values = placed(as_scene(scene), at)
     motion = solved_here(given, values)
-    found = found_centres(motion.structure, values)
+    poles = found_centres(motion.structure, values)
     rests = not any(pose.omega[0] or pose.v[0] for pose in motion.poses.values())
-    moving = as_drawn(motion.growing, found.sheet.structure) if rests else None
-    drawn = as_drawn(motion, found.sheet.structure)
-    return Centred(found, drawn, language, convention, moving).saved(out, formats)
+    moving = as_drawn(motion.growing, poles.sheet.structure) if rests else None
+    drawn = as_drawn(motion, poles.sheet.structure)
+    return Centred(poles, drawn, language, convention, moving).saved(out, formats)
 
 
 # centrodes
@@ -428,5 +428,5 @@ def centrodes(
     given = steady(given)
     motion, curves = turning_centrodes(given, values, link)
     exact = complex(centrode(solved_here(given, values), link).fixed[0])
-    found = found_centres(given, values)
-    return Centroded(found, motion, curves, exact, link, point, language, convention).saved(out, formats)
+    poles = found_centres(given, values)
+    return Centroded(poles, motion, curves, exact, link, point, language, convention).saved(out, formats)

@@ -114,11 +114,11 @@ class Checked(OfScene, Result):
         ok, scales, others = self.ok, self.scales, self._by_other_ways
         for row in self.report.rows:
             unit = row.symbol.unit(scene.units, radians=True)
-            ways = {way: float(unit.of(values[row.symbol])) for way, values in others.items() if row.symbol in values}
+            methods = {m: float(unit.of(values[row.symbol])) for m, values in others.items() if row.symbol in values}
             per_mm, own_scale = row.reading.per_mm, dict[str, Json]()
             if row.reading.diagram == "force" and per_mm not in (0.0, self.sheet.scales.force):
                 own_scale = {"scale": float(f"{unit.of(per_mm):.12g}")}
-            rows.append({**reading_row(scene, row), **own_scale, **ways})
+            rows.append({**reading_row(scene, row), **own_scale, **methods})
         return {
             "instrument": self.sheet.instrument,
             "ok": ok,
@@ -138,14 +138,14 @@ class Checked(OfScene, Result):
         """The construction of groups larger than a dyad: a word for all of them, and each by itself."""
         groups, forces = self.sheet.groups, dict[str, Json]()
         for state in self.sheet.forces[:1]:
-            forces = {"forces": ["drawn system" if way == "drawn system" else "moments and polygon"
-                                 for way in dict.fromkeys(group.way for group in state.groups)
-                                 if way != "driver"]}
+            forces = {"forces": ["drawn system" if method == "drawn system" else "moments and polygon"
+                                 for method in dict.fromkeys(group.way for group in state.groups)
+                                 if method != "driver"]}
         if not groups:
             return forces
-        ways = ", ".join(dict.fromkeys(groups.values()))
-        rows = [{"links": list(g.links), "class": g.order, "construction": way} for g, way in groups.items()]
-        return {"construction": ways, "groups": rows, **forces}
+        methods = ", ".join(dict.fromkeys(groups.values()))
+        rows = [{"links": list(g.links), "class": g.order, "construction": method} for g, method in groups.items()]
+        return {"construction": methods, "groups": rows, **forces}
 
     @property
     def scales(self) -> dict[str, float]:
@@ -162,7 +162,7 @@ class Checked(OfScene, Result):
 
     @property
     def _by_other_ways(self) -> Mapping[str, Mapping[Symbol, float]]:
-        """The readings found by other methods: by instant centres (velocities), by Zhukovsky's lever (the balancing
+        """The readings by other methods: by instant centres (velocities), by Zhukovsky's lever (the balancing
         load), and on the drawing at the contacts, which is this drawing where pins slide in straight slots; sizes of
         vectors, SI.
         """
@@ -170,22 +170,22 @@ class Checked(OfScene, Result):
         velocities = {
             s: self.centres.velocity(s) for s in symbols if s.kind in ("v", "omega") and not s.at
         }
-        found = {"by_centres": {s: abs(v) if s.kind == "v" else v.real + 0.0
-                                for s, v in velocities.items() if v is not None}}
+        methods = {"by_centres": {s: abs(v) if s.kind == "v" else v.real + 0.0
+                                  for s, v in velocities.items() if v is not None}}
         states = sheet.forces
         for symbol in symbols if states else ():
             balance = replace(symbol, plus=False, at="")
             for lever in states[-1 if symbol.plus else 0].levers:
                 if lever.unknown.symbol == balance:
                     size = lever.value if balance.kind == "M" else abs(lever.value)
-                    found.setdefault("by_lever", {}).setdefault(symbol, 0.0 + size)
+                    methods.setdefault("by_lever", {}).setdefault(symbol, 0.0 + size)
         slotted = any(pair.higher for pair in sheet.scene.slides)
         other = self if self.at_contacts is None and slotted else self.at_contacts
         if other is not None:
-            found["at_contact"] = {
+            methods["at_contact"] = {
                 r.symbol: abs(r.measured) if r.symbol.is_vector else r.measured.real for r in other.report.rows
             }
-        return found
+        return methods
 
 
 def check(

@@ -82,15 +82,15 @@ class Designed(Result):
         """The asked values beside those of the scene."""
         task, metres = self.given.task, self.given.units.metres
 
-        def row(what: Phrase, asked: float, found: float, size: float) -> Confirmed:
-            unit = {"design stroke value": self.given.units.length, "design K value": ""}.get(what.key, "deg")
-            return Confirmed(what, asked, found, abs(found - asked) <= CONFIRMS * size, unit)
+        def row(quantity: Phrase, asked: float, measured: float, size: float) -> Confirmed:
+            unit = {"design stroke value": self.given.units.length, "design K value": ""}.get(quantity.key, "deg")
+            return Confirmed(quantity, asked, measured, abs(measured - asked) <= CONFIRMS * size, unit)
 
         if isinstance(task, BarPositionsTask | FunctionTask):
             return tuple(
-                row(what, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
+                row(quantity, asked, asked + (math.nan if bar is None else math.remainder(degrees(bar) - asked, 360.0)),
                     360.0)
-                for what, asked, bar in self._directions(task)
+                for quantity, asked, bar in self._directions(task)
             )
         name = {GuideBarTask: "stroke_5/0", SliderCrankTask: "stroke_3/0"}.get(type(task), "swing_3")
         output = extremes(range_of(structure_of(mechanism_of(self.scene))), Symbol.parse(name))

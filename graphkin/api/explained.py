@@ -71,11 +71,11 @@ class Explained(OfScene, Result):
     @cached_property
     def data(self) -> dict[str, Json]:
         """The sentences by subject, in English."""
-        found: dict[str, list[str]] = {}
+        sentences: dict[str, list[str]] = {}
         for subject, phrase in self.sentences:
-            found.setdefault(subject.removeprefix("explained "), []).append(plain_said(phrase, "en"))
+            sentences.setdefault(subject.removeprefix("explained "), []).append(plain_said(phrase, "en"))
         why = {"why": str(self.why)} if self.why else {}
-        return {"title": self.mechanism.question.title, "ok": self.ok, **found, **why}
+        return {"title": self.mechanism.question.title, "ok": self.ok, **sentences, **why}
 
     @property
     def files(self) -> Mapping[str, bytes]:
@@ -116,12 +116,12 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
         why, status, exit_code = error.reason, error.status, error.exit_code
     find = given.question.find
     all_asked = Phrase("explained asked all with forces" if given.loading else "explained asked all")
-    told: dict[str, Iterable[Phrase]] = {
+    subjects: dict[str, Iterable[Phrase]] = {
         "units": _units(given), "links": _links(given), "joints": _joints(given), "mobility": [mobility_said(given)],
         "drivers": [_driver(given, driver) for driver in given.drivers], "groups": groups, "loads": _loads(given),
         "asked": [Phrase("explained asked for", quantities=listed(find)) if find else all_asked],
     }
-    sentences = tuple((f"explained {about}", phrase) for about, phrases in told.items() for phrase in phrases)
+    sentences = tuple((f"explained {about}", phrase) for about, phrases in subjects.items() for phrase in phrases)
     return Explained(given, sentences, why, language or given.question.sheet.language, exit_code, status)
 
 
@@ -154,20 +154,20 @@ def _links(scene: Mechanism) -> Iterator[Phrase]:
     yield from _outlines(scene.frame, scene)
     roles = {name: role for pair in scene.higher_pairs for name, role in zip(pair.bodies, pair.roles, strict=False)}
     for link in (link for link in scene.links if link.name not in scene.replacing):
-        own, points = link.bar, scene.own_points(link)
-        if len(own) == 2:
+        bar, points = link.bar, scene.own_points(link)
+        if len(bar) == 2:
             length = _number((link.length or 0.0) / scene.units.metres)
-            yield Phrase("explained bar", link=link.name, bar="".join(own), length=length, unit=scene.units.length)
+            yield Phrase("explained bar", link=link.name, bar="".join(bar), length=length, unit=scene.units.length)
         elif len(points) < len(link.points) or any(s.a == link.name for s in scene.slidings):
             block = Phrase("explained block without point", link=link.name)
-            yield Phrase("explained block", link=link.name, point=own[0]) if own else block
-        elif own and link.name in roles:
-            yield Phrase(f"explained {roles[link.name]}", link=link.name, point=own[0])
-        elif own and link.discs:
-            yield Phrase("explained disc link", link=link.name, point=own[0])
+            yield Phrase("explained block", link=link.name, point=bar[0]) if bar else block
+        elif bar and link.name in roles:
+            yield Phrase(f"explained {roles[link.name]}", link=link.name, point=bar[0])
+        elif bar and link.discs:
+            yield Phrase("explained disc link", link=link.name, point=bar[0])
         else:
-            yield Phrase("explained ray", link=link.name, point=own[0] if own else "-")
-        further = [f"{p} {_place(link.points[p], scene)}" for p in points if p not in own]
+            yield Phrase("explained ray", link=link.name, point=bar[0] if bar else "-")
+        further = [f"{p} {_place(link.points[p], scene)}" for p in points if p not in bar]
         if further:
             yield Phrase(about("explained further", further), link=link.name, points=listed(further))
         yield from _outlines(link, scene)
@@ -194,15 +194,15 @@ def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
 def _joints(scene: Mechanism) -> Iterator[Phrase]:
     counted = {scene.frame.name, *(link.name for link in scene.links if not link.redundant)}
     for point, holders in scene.holders.items():
-        own = [name for name in holders if name in counted and point in scene.own_points(scene.by_name[name])]
-        if len(own) > 1:
-            if len(own) == 2:
-                yield Phrase("explained turning", point=point, links=listed(own))
+        links = [name for name in holders if name in counted and point in scene.own_points(scene.by_name[name])]
+        if len(links) > 1:
+            if len(links) == 2:
+                yield Phrase("explained turning", point=point, links=listed(links))
             else:
-                yield Phrase("explained turnings", point=point, links=listed(own), number=len(own) - 1)
-        for name in holders if own else ():
+                yield Phrase("explained turnings", point=point, links=listed(links), number=len(links) - 1)
+        for name in holders if links else ():
             if name not in counted:
-                yield Phrase("explained uncounted", point=point, links=listed([own[0], name]), link=name)
+                yield Phrase("explained uncounted", point=point, links=listed([links[0], name]), link=name)
     yield from (told(pair, "explained") for pair in scene.pairs)
 
 

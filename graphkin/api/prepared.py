@@ -118,14 +118,14 @@ class Prepared(Tabled, OfScene):
     def columns(self, values: ArrayLike) -> Sweep:
         """The quantities at given values of the first driver, shape (n,), in its own unit."""
         try:
-            own = np.atleast_1d(np.asarray(values, dtype=float)).reshape(-1)
+            driven = np.atleast_1d(np.asarray(values, dtype=float)).reshape(-1)
         except (TypeError, ValueError):
             raise unfit("values", values, "give numbers one for each position") from None
-        wrong = own[~(np.abs(own) <= MOST_VALUE)]
+        wrong = driven[~(np.abs(driven) <= MOST_VALUE)]
         if len(wrong):
             raise CallError.of("values", "found value", "give finite numbers below 1e9", value=f"{wrong[0]:g}")
-        arrays = self.ready.columns(own * self.own_unit.si, fast=self.compiled(len(own)))
-        return Sweep(self.base, self.base.scene.name, len(own), content=arrays, given=own)
+        arrays = self.ready.columns(driven * self.own_unit.si, fast=self.compiled(len(driven)))
+        return Sweep(self.base, self.base.scene.name, len(driven), content=arrays, given=driven)
 
     def sweep(self, n: int, out: Reals | None = None) -> Sweep:
         """The quantities at n positions of the whole range: a turn from the scene's own position on, in the sense of
@@ -183,7 +183,7 @@ class Prepared(Tabled, OfScene):
         keys = tuple(as_text("designs", key) for key in designs)
         if keys not in self._keys:
             self._keys[keys] = design_keys(written(self.source)[0], self.mechanism, keys)
-        given = {key: np.atleast_1d(own) for key, own in zip(keys, values, strict=True)}
+        given = {key: np.atleast_1d(numbers) for key, numbers in zip(keys, values, strict=True)}
         return PreparedDesigns(self, given, not values[0].ndim, PreparedMechanisms(self.ready, self._keys[keys](given)))
 
     @cached_property
@@ -288,7 +288,7 @@ class PreparedDesigns(Tabled, OfScene):
         return hash((self.prepared, tuple(self.values)))
 
     def __reduce__(self) -> tuple[object, ...]:
-        given = {key: float(own[0]) if self.single else own for key, own in self.values.items()}
+        given = {key: float(numbers[0]) if self.single else numbers for key, numbers in self.values.items()}
         return self.prepared.over, (given,)
 
     def __repr__(self) -> str:

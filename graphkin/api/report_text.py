@@ -91,14 +91,14 @@ def _forces(checked: Checked, language: str) -> list[str]:
     account = Account(sheet, notation_of(sheet, sheet.scene.question.sheet.convention))
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
-    lines += [say(line, language) for told in told_of(account, sheet.inertias.values()) for line in told.sums]
+    lines += [say(line, language) for force in told_of(account, sheet.inertias.values()) for line in force.sums]
     for number, state in enumerate(sheet.forces):
         if len(sheet.forces) > 1:
             lines.append(word("force with load" if number else "force without load", language))
         for count, group in enumerate(state.groups, 1):
             lines.append(say(caption(account, group, count), language))
             steps = told_of(account, group.by(*BY_MOMENTS, "system", *COUPLES), group)
-            lines += [f"    {say(line, language)}" for told in steps for line in (told.said, *told.sums)]
+            lines += [f"    {say(line, language)}" for force in steps for line in (force.said, *force.sums)]
     return [*lines, ""]
 
 
@@ -152,14 +152,14 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
         pins = dict.fromkeys(s.pin for s in checked.mechanism.slides if s.higher)
         return [say(Phrase("at pins", points=listed([*pins])), language)] if pins else []
     gaps = {"at contact": "contact", "at pitch curve": "point"}
-    ways = dict.fromkeys((str(n.of[gaps[n.key]]), n.key) for n in other.sheet.remarks if n.key in gaps)
-    if not ways:  # nothing asked leads over a contact
+    contacts = dict.fromkeys((str(n.of[gaps[n.key]]), n.key) for n in other.sheet.remarks if n.key in gaps)
+    if not contacts:  # nothing asked leads over a contact
         return []
-    names, curve = [name for name, _ in ways], any(key == "at pitch curve" for _, key in ways)
+    names, curve = [name for name, _ in contacts], any(key == "at pitch curve" for _, key in contacts)
     first = {row.symbol: row for row in checked.report.rows}
     both = [(row, first[row.symbol]) for row in other.report.rows if row.symbol in first]
     alike = sum(abs(a.reading.value - b.reading.value) <= a.tolerance + b.tolerance for a, b in both)
-    found = [
+    readings = [
         f"{symbol} {length} mm, {said} {unit}" if length != "–" else f"{symbol} {said} {unit}"
         for symbol, length, said, _, unit, _ in reading_words(other)
         if any(f"_{n}@" in symbol for n in names)
@@ -168,7 +168,7 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     where = {gaps[key]: listed(names)}
     key += " agrees" if other.ok and alike == len(both) else " differs"
     lines = [say(Phrase(key, **where, agreeing=alike, readings=len(both)), language)]
-    return [*lines, *(f"  {line}" for line in found)]
+    return [*lines, *(f"  {line}" for line in readings)]
 
 
 def _rows(equation: Equation, language: str) -> list[str]:
@@ -218,7 +218,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     held = [f"{d.key} = {say(scene.place_said(d, value), language)}" for d, value in stand]
     others = say(Phrase("in brackets", words=listed(held)), language) if held else ""
     lines.append(f"{word('range', language)} {driver.key}{others}{colon}{said}")
-    lines += ["  " + say(one, language) for one in passed_words(scene, turn.reach.change_points)]
+    lines += ["  " + say(passed, language) for passed in passed_words(scene, turn.reach.change_points)]
     for other in turn.ranges[1:]:
         lines.append("  " + say(Phrase("also assembles", assembly=_between(scene, other, language)), language))
     if turn.not_searched:

@@ -156,6 +156,6 @@ def named(rows: Mapping[str, T], name: str, why: Wording = "", where: str = "") 
     """
     name = as_text(where or "name", name)
     if name not in rows:
-        told = (where, f'"{name}"') if where else (f'"{name}"', why)
-        raise CallError(Problem(*told, did_you_mean(name, rows)))
+        clauses = (where, f'"{name}"') if where else (f'"{name}"', why)
+        raise CallError(Problem(*clauses, did_you_mean(name, rows)))
     return rows[name]

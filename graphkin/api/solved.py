@@ -402,18 +402,18 @@ def _whole(solved: Solved, language: str) -> list[Texts]:
     return tables
 
 
-def _forces(found: Forces) -> Iterator[Row]:
+def _forces(forces: Forces) -> Iterator[Row]:
     """Forces by components, size and direction."""
-    for quantity in _loads(found, True):
-        x, y = (_there(found, quantity, part) for part in parts_of(quantity, None, found.motion))
-        way = ["–" if a == b == 0.0 else f"{math.degrees(math.atan2(b, a)):.6g}" for a, b in zip(x, y, strict=True)]
-        yield str(quantity), (_texts(x, y), _texts(np.hypot(x, y)), way)
+    for quantity in _loads(forces, True):
+        x, y = (_there(forces, quantity, part) for part in parts_of(quantity, None, forces.motion))
+        angles = ["–" if a == b == 0.0 else f"{math.degrees(math.atan2(b, a)):.6g}" for a, b in zip(x, y, strict=True)]
+        yield str(quantity), (_texts(x, y), _texts(np.hypot(x, y)), angles)
 
 
-def _moments(found: Forces) -> Iterator[Row]:
+def _moments(forces: Forces) -> Iterator[Row]:
     """Moments with their unit; excess work and inertia of the flywheel, if the scene asks for one."""
-    motion = found.motion
-    shown = [*_loads(found, False)]
+    motion = forces.motion
+    shown = [*_loads(forces, False)]
     if motion.scene.loading.flywheel is not None:
         shown += map(Symbol.parse, ("excess_W", "J_F"))
     for quantity in shown:
@@ -421,19 +421,19 @@ def _moments(found: Forces) -> Iterator[Row]:
             (values,) = parts_of(quantity, None, motion)
         except Unsolvable:  # no whole turn
             continue
-        texts = _texts(_there(found, quantity, values))
+        texts = _texts(_there(forces, quantity, values))
         yield str(quantity), (texts, [quantity.unit(motion.scene.units).text] * len(texts))
 
 
-def _loads(found: Forces, vectors: bool) -> Iterator[Symbol]:
+def _loads(forces: Forces, vectors: bool) -> Iterator[Symbol]:
     """Forces, or moments, each followed by its value with the loads that begin or end exactly here, if that differs."""
-    for symbol in (symbol for symbol in found.values if symbol.is_vector is vectors):
+    for symbol in (symbol for symbol in forces.values if symbol.is_vector is vectors):
         yield symbol
-        if symbol in found.beside:
+        if symbol in forces.beside:
             yield replace(symbol, plus=True)
 
 
-def _there(found: Forces, quantity: Symbol, values: Array) -> Array:
+def _there(forces: Forces, quantity: Symbol, values: Array) -> Array:
     """Values of a force; NaN where the loads that begin or end here do not change it."""
-    beside = found.beside.get(replace(quantity, plus=False)) if quantity.plus else None
+    beside = forces.beside.get(replace(quantity, plus=False)) if quantity.plus else None
     return values if beside is None else np.where(np.isnan(beside), np.nan, values)

@@ -144,7 +144,7 @@ class Stability(Result):
         return to_json(self.singularities)
 
     def __repr__(self) -> str:
-        return f"<Stability: {', '.join(one.key for one in self.singularities)}>"
+        return f"<Stability: {', '.join(place.key for place in self.singularities)}>"
 
 def stability(
     *, kinds: Iterable[str] = (), samples: int = 4, out: str | os.PathLike[str] | None = None, language: str = "en"

@@ -332,7 +332,7 @@ def sweep(
         raise CallError.of("executor", "is given beside a scheduler", "give one of them")
     workers = known_workers(executor, workers)
     wishes = {
-        name: [as_text(name, one) for one in as_list(name, names, Phrase("give names s_6 1"))]
+        name: [as_text(name, quantity) for quantity in as_list(name, names, Phrase("give names s_6 1"))]
         for name, names in (("differentiate", differentiate), ("integrate", integrate))
     }
     made = designs_of(designs, designs_file)

@@ -161,14 +161,14 @@ def named_numbers(texts: list[str], wrong: Callable[[str, str], Problem]) -> dic
     ----------
     wrong : the problem of a text without a number
     """
-    found: dict[str, float] = {}
+    numbers: dict[str, float] = {}
     for text in texts:
         name, _, number = text.partition("=")
         try:
-            found[name.strip()] = float(number)
+            numbers[name.strip()] = float(number)
         except ValueError:
             raise CallError(wrong(text, number)) from None
-    return found
+    return numbers
 
 
 def processes(workers: int | None) -> int | None:

@@ -41,10 +41,10 @@ def asked_languages(arguments: Sequence[str]) -> tuple[str, ...]:
     return languages(given) if given in (*LANGUAGES, BOTH) else LANGUAGES[:1]
 
 
-def complain(*found: Problem | Wording) -> None:
+def complain(*faults: Problem | Wording) -> None:
     """Print on stderr problems, or deviations from the request, in the languages that the command is asked for."""
     for language in asked_languages(sys.argv[1:]):
-        for fault in found:
+        for fault in faults:
             text = fault.text(language) if isinstance(fault, Problem) else say(fault, language)
             show(f"graphkin: {text}", err=True)
 
@@ -117,8 +117,8 @@ def answering(answer: Mapping[str, object] | Callable[[Unsolvable], Mapping[str,
 def print_failed(status: str, problems: Iterable[Problem], answer: Mapping[str, object]) -> None:
     """What a program that asked for JSON reads of a command that failed, after what there is of its answer."""
     if "--json" in sys.argv[1:]:
-        told = [problem.data for problem in problems]
-        print_json({**answer, "ok": False, "status": status, "problems": told})
+        rows = [problem.data for problem in problems]
+        print_json({**answer, "ok": False, "status": status, "problems": rows})
 
 
 def finish(given: Given, result: Result, paths: Iterable[Path] = (), files: bool = False) -> None:

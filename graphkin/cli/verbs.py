@@ -151,15 +151,15 @@ def centres(given: Given) -> None:
         finish(given, rolled, rolled.write(given.out, given.formats, given.text), files=True)
         return
     with answering({"links": [], "centres": {}, "ok": False}):
-        found = given.call(graphkin.centres)
+        centred = given.call(graphkin.centres)
     none_wanted = given.json and given.out is None
-    paths = [] if none_wanted else found.write(given.out, given.formats, given.text, given.motion)
+    paths = [] if none_wanted else centred.write(given.out, given.formats, given.text, given.motion)
     if given.speaks:
         print_paths(paths)
-        heads, rows, sentences = centres_text(found)
+        heads, rows, sentences = centres_text(centred)
         print_table(heads, rows)
         show("\n".join(sentences))
-    finish(given, found)
+    finish(given, centred)
 
 
 @command("file of design", "out", "format", "lang of sheets", "instrument", "seed", "json", "quiet")
@@ -178,11 +178,11 @@ def design(given: Given) -> None:
         ]
         heads = [word(key, language) for key in ("length found", "on paper", "measured", "exact", "unit")]
         print_table([*heads, ""], rows, right=(1, 2, 3))
-        told = [
-            [say(one.what, language), f"{one.asked:.7g}", f"{one.found:.7g}", one.unit, "ok" if one.ok else "off"]
-            for one in designed.confirmed
+        confirmed = [
+            [say(wish.what, language), f"{wish.asked:.7g}", f"{wish.found:.7g}", wish.unit, "ok" if wish.ok else "off"]
+            for wish in designed.confirmed
         ]
-        print_table([word("confirmed", language), word("given wish", language), "", "", ""], told, right=(1, 2))
+        print_table([word("confirmed", language), word("given wish", language), "", "", ""], confirmed, right=(1, 2))
         for sentence in designed.sentences(language):
             typer.echo(sentence)
     finish(given, designed)
@@ -192,13 +192,13 @@ def design(given: Given) -> None:
 def cam(given: Given) -> None:
     """Cams drawn by inversion: pressure angles, curvature, undercutting, profile as CSV and DXF; discs measured."""
     with answering({"ok": False, "status": "", "why": "", "cams": {}}):
-        found = given.call(graphkin.cam)
-        paths = found.write(given.out, given.formats)
+        cams = given.call(graphkin.cam)
+        paths = cams.write(given.out, given.formats)
     if given.speaks:
         print_paths(paths)
-        language = languages(given.lang or found.mechanism.question.sheet.language)[0]
-        show("\n".join(found.sentences(language)))
-    finish(given, found)
+        language = languages(given.lang or cams.mechanism.question.sheet.language)[0]
+        show("\n".join(cams.sentences(language)))
+    finish(given, cams)
 
 
 # the solver alone
@@ -303,29 +303,29 @@ def sweep(given: Given) -> None:
 
 def _replaced(given: Iterable[str]) -> dict[str, str]:
     """Designs as given on the command line: KEY=VALUES."""
-    found: dict[str, str] = {}
+    designs: dict[str, str] = {}
     for text in given:
         key, sign, values = text.partition("=")
         if not sign or not key.strip():
             raise CallError.of(f"--set {text}", "says no key or no values", "write set links.1.length 40 60 21")
-        if key.strip() in found:
+        if key.strip() in designs:
             raise CallError.of(f"--set {text}", "the key is given twice", "write key 40 50 60")
-        found[key.strip()] = values
-    return found
+        designs[key.strip()] = values
+    return designs
 
 
 @command("scene", "out of speed-accuracy", "repeats", "format of speed-accuracy", "lang", "json", "quiet")
 def speed_accuracy(given: Given) -> None:
     """Cost of a position against the largest error, for all methods, measured on this machine."""
-    found = given.call(graphkin.speed_accuracy)
-    finish(given, found, found.write(given.out, given.formats))
+    race = given.call(graphkin.speed_accuracy)
+    finish(given, race, race.write(given.out, given.formats))
 
 
 @command("out of stability", "format of stability", "lang", "json", "quiet")
 def stability(given: Given) -> None:
     """Errors beside every kind of singular position: how fast they grow, where methods stop and how they say so."""
-    found = graphkin.stability(language=given.lang or "en")
-    finish(given, found, found.write(given.out, given.formats))
+    growth = graphkin.stability(language=given.lang or "en")
+    finish(given, growth, growth.write(given.out, given.formats))
 
 
 # papers
@@ -454,16 +454,16 @@ def _begin(given: Given, file: Path | None) -> None:
 
 
 def _list(given: Given) -> None:
-    found = graphkin.scenes()
+    scenes = graphkin.scenes()
     if given.json:
-        print_json(found.data)
+        print_json(scenes.data)
     if not given.speaks:
         return
     # without a wish that of the terminal
     locale = next((value for name in ("LC_ALL", "LC_MESSAGES", "LANG") if (value := os.environ.get(name))), "")
     language = given.lang or ("zh" if locale.lower().startswith("zh") else "en")
     heads = [word(head, language) for head in ("scene in a list", "title in a list")]
-    rows = [[n, z if language == "zh" else t, str(f)] for n, t, z, f in found.rows]
+    rows = [[n, z if language == "zh" else t, str(f)] for n, t, z, f in scenes.rows]
     print_table([*heads, "F"], rows, right=(2,))
 
 

@@ -96,8 +96,8 @@ def read_table(text: str, title: str) -> Bodies:
         if at is None and not any(map(_is_number, cells)):
             continue  # the head
         if not at or len(numbers) < 2 or (cells[at].upper() != "R" and len(numbers) < 3):
-            where, found = Phrase("row", name=title, number=count), Phrase("is no joint", joint=row.strip()[:60])
-            problems.append(Problem(where, found, "write links r p or rp x y"))
+            where, fault = Phrase("row", name=title, number=count), Phrase("is no joint", joint=row.strip()[:60])
+            problems.append(Problem(where, fault, "write links r p or rp x y"))
             continue
         angle = math.radians(numbers[2]) if cells[at].upper() != "R" else 0.0
         _join(made, known, _letter(len(made.places)), cells[at].upper(), complex(*numbers[:2]), cells[:at], angle)
@@ -156,10 +156,10 @@ def read_address(text: str, title: str) -> Bodies:
     blocks: list[list[str]] = []
     for piece in sections[1]:
         cells = piece.split(",")
-        own = cells[7:]
-        if len(own) < 1 or len(piece) < 2:
+        ends = cells[7:]
+        if not ends or len(piece) < 2:
             raise CallError.of(title, "is no link of pmks", "copy the whole address", piece=piece[:30])
-        ends = own[: own.index("")] if "" in own else own
+        ends = ends[: ends.index("")] if "" in ends else ends
         if piece[:2] == "NR":
             continue  # a part of a welded link, which is there as a whole
         if piece[1] == "P":

@@ -235,8 +235,8 @@ def _lessons(race: Race, language: str) -> list[str]:
     lines = [say(lesson, language) for lesson in lessons(race)]
     lines.append(say(Phrase("speed hand", acts=race.acts), language))
     if race.skipped:
-        told = clauses([f"{peer} {say(why, language)}" for peer, why in race.skipped])
-        lines.append(say(Phrase("skipped", methods=told), language))
+        methods = clauses([f"{peer} {say(why, language)}" for peer, why in race.skipped])
+        lines.append(say(Phrase("skipped", methods=methods), language))
     return lines
 
 

@@ -308,8 +308,8 @@ def instant_centres(work: Work, repeats: int) -> Iterator[Entry]:
     """Velocities by centres, found on the drawn position; they give no accelerations."""
     few = work.some(EVERY)
     sheets = [execute(plan(work.scene, at, ())) for at in few.positions]
-    found = [find_centres(work.scene, sheet.drivers, sheet=sheet) for sheet in sheets]
-    velocities = [[centres.velocity(Symbol("v", ref)) for centres in found] for ref in few.outputs]
+    poles = [find_centres(work.scene, sheet.drivers, sheet=sheet) for sheet in sheets]
+    velocities = [[centres.velocity(Symbol("v", ref)) for centres in poles] for ref in few.outputs]
     errors = few.errors(_if_all(velocities), None)
     if errors[0] is None:
         return

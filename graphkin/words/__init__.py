@@ -197,14 +197,14 @@ def parts(said: Wording, language: str, show: Callable[[object], Words] = str) -
 @cache
 def _pieces(key: str, language: str) -> tuple[tuple[Words, str | None, str], ...]:
     """The words of a key, each with the name of the gap behind it, and the symbol of which that gap is the index."""
-    found: list[tuple[Words, str | None, str]] = []
+    pieces: list[tuple[Words, str | None, str]] = []
     before = ""
     for words, gap, of, _ in Formatter().parse(_table(language)[key]):
         before += words
         if gap is not None:  # a brace that stands for itself parts the words too
-            found.append((_with_symbols(before), gap, of or ""))
+            pieces.append((_with_symbols(before), gap, of or ""))
             before = ""
-    return (*found, (_with_symbols(before), None, ""))
+    return (*pieces, (_with_symbols(before), None, ""))
 
 
 def _with_symbols(words: str) -> Words:
@@ -265,7 +265,7 @@ def in_all(said: Wording, language: str) -> tuple[RichText, ...]:
     (ours, shared), (theirs, others) = (_around_neutral(said, each) for each in every)
     if not shared or shared != others:
         return lines
-    around = [_both(one, other) for one, other in zip(ours, theirs, strict=True)]
+    around = [_both(first, second) for first, second in zip(ours, theirs, strict=True)]
     whole = RichText(*(part for pair in zip(around, (*shared, RichText()), strict=True) for part in pair))
     return (whole.stripped(" "),)
 
@@ -285,13 +285,13 @@ def _around_neutral(said: Wording, language: str) -> tuple[list[RichText], list[
 _MARKS = " ;:,.()；：，。、（）"
 
 
-def _both(one: RichText, other: RichText) -> RichText:
+def _both(first: RichText, second: RichText) -> RichText:
     """Words in both languages, with the marks of the first."""
-    more = other.stripped(_MARKS)
-    if not more or more == one.stripped(_MARKS):
-        return one
-    head, marks = one.cut(" :;,=")
-    return head + " " + more + (marks or " ") if head.stripped(_MARKS) else (one or " ") + more + " "
+    more = second.stripped(_MARKS)
+    if not more or more == first.stripped(_MARKS):
+        return first
+    head, marks = first.cut(" :;,=")
+    return head + " " + more + (marks or " ") if head.stripped(_MARKS) else (first or " ") + more + " "
 
 
 def about(key: str, names: Sequence[object]) -> str:

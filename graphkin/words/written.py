@@ -39,7 +39,7 @@ def figures(*written: str) -> int:
     >>> figures("0.06"), figures("107.58", "3.00")
     (1, 3)
     """
-    return min(len(_number(one).as_tuple().digits) for one in written)
+    return min(len(_number(text).as_tuple().digits) for text in written)
 
 
 def product(*factors: str, carried: int | None = None) -> str:
@@ -52,13 +52,13 @@ def product(*factors: str, carried: int | None = None) -> str:
     return _plain(_rounded(whole, carried) if carried else whole)
 
 
-def difference(one: str, other: str) -> str:
+def difference(first: str, second: str) -> str:
     """The distance of two numbers as they are written.
 
     >>> difference("-10", "-2.8191"), difference("0.5", "0.5")
     ('7.1809', '0')
     """
-    return _plain(EXACT.abs(EXACT.subtract(_number(one), _number(other))))
+    return _plain(EXACT.abs(EXACT.subtract(_number(first), _number(second))))
 
 
 def quotient(over: str, under: str, carried: int) -> str:
@@ -74,7 +74,7 @@ def to_lay_off(value: float, per: float, mm: float) -> tuple[str, str]:
     """
     length, scale = on_paper(mm), amount(per, 12)
     tried = (amount(value, carried) for carried in FINER)
-    return next((one for one in tried if is_quotient(length, one, scale)), amount(value, MOST)), length
+    return next((text for text in tried if is_quotient(length, text, scale)), amount(value, MOST)), length
 
 
 def is_quotient(value: str, over: str, under: str) -> bool:
@@ -105,11 +105,11 @@ def increase(value: float, more: float) -> str:
     ('−0.041617 + 0.083233 = 0.041616 (0.041617)', '2 − 3 = −1')
     """
     tiny = 1e-12 * max(abs(value), abs(more))
-    base, own = (amount(one if abs(one) > tiny else 0.0, MOST) for one in (value, more))
-    whole, finer = increased(base, own), amount(value + more if abs(value + more) > tiny else 0.0, MOST)
-    sign = "−" if own.startswith("-") else "+"
+    base, added = (amount(part if abs(part) > tiny else 0.0, MOST) for part in (value, more))
+    whole, finer = increased(base, added), amount(value + more if abs(value + more) > tiny else 0.0, MOST)
+    sign = "−" if added.startswith("-") else "+"
     exact = "" if whole == finer else f" ({printed(finer)})"
-    return f"{printed(base)} {sign} {printed(own.removeprefix('-'))} = {printed(whole)}{exact}"
+    return f"{printed(base)} {sign} {printed(added.removeprefix('-'))} = {printed(whole)}{exact}"
 
 
 def amount(value: float, carried: int = 6) -> str:
