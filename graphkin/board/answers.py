@@ -60,8 +60,8 @@ def answer(shelf: Shelf, message: object) -> Answer:
         name = message.get("do")
         if not isinstance(name, str) or name not in QUESTIONS:
             raise CallError.of("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS))
-        needed, told = QUESTIONS[name]
-        return {**head, "ok": True, **told(shelf, Message.of(message, needed))}
+        needed, reply = QUESTIONS[name]
+        return {**head, "ok": True, **reply(shelf, Message.of(message, needed))}
     except GraphkinError as error:
         return {**head, "ok": False, **_problems(shelf, error, message)}
     except (RecursionError, MemoryError, OverflowError):
@@ -84,17 +84,17 @@ def _problems(shelf: Shelf, error: GraphkinError, message: object) -> Answer:
         {"text": problem.text(language_of(message)), "line": line_of(problem, text) if lines else 0}
         for problem in error.problems[:100]
     ]
-    told: Answer = {"problems": problems, "kind": type(error).__name__}
+    reply: Answer = {"problems": problems, "kind": type(error).__name__}
     with suppress(GraphkinError):  # of a scene that does not move yet the sketch and the mobility
         made = parsed(text)
-        told |= {"draft": building.draft(made), "form": _form(made)}
+        reply |= {"draft": building.draft(made), "form": _form(made)}
         trial = building.trial_driver(made)
         made = pictures.with_own_files(parsed(text), shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
         language = given.get("language")
         spoken = language if language in LANGUAGES else scene.question.sheet.language
-        told["mobility"] = pictures.mobility_text(scene, spoken, trial is not None)
-    return told
+        reply["mobility"] = pictures.mobility_text(scene, spoken, trial is not None)
+    return reply
 
 
 def _form(made: Tables) -> Any:
@@ -149,7 +149,7 @@ class Message(BaseModel):
         try:
             made = cls.model_validate(given)
         except ValidationError as error:
-            wrong |= {str(one["loc"][0]): one["input"] for one in error.errors(include_url=False)}
+            wrong |= {str(fault["loc"][0]): fault["input"] for fault in error.errors(include_url=False)}
         if wrong:
             raise CallError(*(_refused(key, value) for key, value in wrong.items()))
         return made

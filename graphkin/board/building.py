@@ -42,13 +42,13 @@ def built(text: str, step: Step) -> str:
     ------
     SceneError : the text is no TOML; CallError : a piece that cannot be made
     """
-    what = str(step.get("what", ""))
-    if what not in STEPS:
-        raise CallError.of("piece", f'"{what[:60]}"', did_you_mean(what[:60], STEPS))
+    piece = str(step.get("what", ""))
+    if piece not in STEPS:
+        raise CallError.of("piece", f'"{piece[:60]}"', did_you_mean(piece[:60], STEPS))
     text = text if text.strip() else EMPTY
     made = parsed(text)
     seen = {p: z for p, z in table_in(step, "places").items() if _place(z) and p in points_in(made)}
-    changes = STEPS[what]({**made, "seen": seen}, step)
+    changes = STEPS[piece]({**made, "seen": seen}, step)
     return changed(text, changes) if changes else text
 
 
@@ -61,9 +61,9 @@ def draft(made: Tables) -> OwnTables:
     for name, z in fixed.items():
         if isinstance(z, Mapping) and str(z.get("from")) in points and _place([z.get("r"), z.get("angle", 0.0)]):
             start, ahead = complex(*points[z["from"]]), z.get("toward")
-            way = 1.0 if ahead is None else complex(*points.get(str(ahead), points[z["from"]])) - start
-            if way:
-                points[name] = xy(start + z["r"] * way / abs(way) * direction(per * z.get("angle", 0.0)))
+            axis = 1.0 if ahead is None else complex(*points.get(str(ahead), points[z["from"]])) - start
+            if axis:
+                points[name] = xy(start + z["r"] * axis / abs(axis) * direction(per * z.get("angle", 0.0)))
     links = {}
     for name, link in table_in(made, "links").items():
         if isinstance(link, Mapping):
@@ -149,12 +149,12 @@ def _fix(made: Tables, step: Step) -> OwnTables:
 
 
 def _bar(made: Tables, step: Step) -> OwnTables:
-    one, p, begun = _end(made, step, "from")
-    other, q, ended = _end(made, step, "to", begun)
+    first, p, begun = _end(made, step, "from")
+    second, q, ended = _end(made, step, "to", begun)
     long = math.dist(p, q)
-    if one == other or long == 0.0:
+    if first == second or long == 0.0:
         raise CallError.of("bar", "begins and ends in the same place", "pull it to another place")
-    return {f"links.{_next_link(made)}": {"points": [one, other], "length": _round(long)}, **begun, **ended}
+    return {f"links.{_next_link(made)}": {"points": [first, second], "length": _round(long)}, **begun, **ended}
 
 
 def _point_on(made: Tables, step: Step) -> OwnTables:

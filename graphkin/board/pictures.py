@@ -280,10 +280,10 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
     motion = (telling(account, step) for step in sheet.steps)
-    forces = ((stage.figure, told) for stage in force_stages(account) for told in stage.steps)
+    forces = ((stage.figure, words) for stage in force_stages(account) for words in stage.steps)
     steps = [
-        *((told.step.diagram, told, told.work) for told in motion),
-        *((figure, told, told.work_in(spoken)) for figure, told in forces),
+        *((words.step.diagram, words, words.work) for words in motion),
+        *((figure, words, words.work_in(spoken)) for figure, words in forces),
     ]
     return {
         "readings": [
@@ -292,9 +292,9 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
         ],
         "agrees": drawn.ok,
         "steps": [
-            {"n": told.step.number, "figure": figure, "html": words_html(told.sentence(spoken), spoken),
+            {"n": words.step.number, "figure": figure, "html": words_html(words.sentence(spoken), spoken),
              "work": [words_html(line, spoken) for line in work]}
-            for figure, told, work in steps
+            for figure, words, work in steps
         ],
         "range": limits,
         "drivers": [

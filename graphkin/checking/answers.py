@@ -94,14 +94,14 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
 def stated_answers(scene: Mechanism) -> tuple[Answers, ...]:
     """The values stated in a scene's own tables, a row for each position."""
     answers: list[Answers] = []
-    for own in scene.question.stated:
-        if own.file:
-            rows, _ = as_answers(scene, own.file)
-            answers += [replace(row, person="", by=own.by) for row in rows]
+    for stated in scene.question.stated:
+        if stated.file:
+            rows, _ = as_answers(scene, stated.file)
+            answers += [replace(row, person="", by=stated.by) for row in rows]
             continue
-        for place in dict.fromkeys(symbol.at for symbol in own.values):
-            there = (replace(p, symbol=s.here) for s, p in own.values.items() if s.at == place)
-            answers.append(Answers("", place or own.at, {p.symbol: p for p in there}, own.by))
+        for place in dict.fromkeys(symbol.at for symbol in stated.values):
+            there = (replace(p, symbol=s.here) for s, p in stated.values.items() if s.at == place)
+            answers.append(Answers("", place or stated.at, {p.symbol: p for p in there}, stated.by))
     return tuple(answers)
 
 
@@ -126,8 +126,8 @@ def _answers(
     scene: Mechanism, sheet: Rows, name: str, silent: Mapping[int, frozenset[str]]
 ) -> tuple[tuple[Answers, ...], tuple[str, ...]]:
     problems: list[Problem] = []
-    values, ways, roles = _columns(scene, sheet.heads, name, problems)
-    others = [i for i, head in enumerate(sheet.heads) if head and i not in {*values, *ways, *roles.values()}]
+    values, directions, roles = _columns(scene, sheet.heads, name, problems)
+    others = [i for i, head in enumerate(sheet.heads) if head and i not in {*values, *directions, *roles.values()}]
     if "person" not in roles and others:
         roles["person"] = others.pop(0)
     if "person" not in roles and "id" in roles:
@@ -140,42 +140,42 @@ def _answers(
     # numbers are driver values, unless all of them are names of positions
     positions = scene.question.positions
     by_name = positions is not None and bool(places) and places <= set(positions.names)
-    by_signs = {i for i in ways if any(plain_text(cells[i]) == "+" for _, cells in rows)}  # there - is no blank
+    by_signs = {i for i in directions if any(plain_text(cells[i]) == "+" for _, cells in rows)}  # there - is no blank
     answers = []
     for line, cells in rows:
-        told, at = {role: cells[i] for role, i in roles.items()}, None
-        if text := told.get("at", ""):
+        notes, at = {role: cells[i] for role, i in roles.items()}, None
+        if text := notes.get("at", ""):
             try:
                 at = text if by_name else _plain_number(text, sheet.sign)
             except ValueError:
                 problems.append(Problem(Phrase("line at", name=name, line=line), "is no driver value", text=text[:40]))
-        person = told.get("person", "") or ("" if at is not None else str(Phrase("line", line=line)))
-        marks = {part: mark for part in ("equations", "drawing") if (mark := _mark(told.get(part, ""))) is not None}
+        person = notes.get("person", "") or ("" if at is not None else str(Phrase("line", line=line)))
+        marks = {part: mark for part in ("equations", "drawing") if (mark := _mark(notes.get(part, ""))) is not None}
         def read(sign: str, cells: Sequence[str] = cells, line: int = line) -> dict[Symbol, Cell]:
             made: dict[Symbol, Cell] = {}
             for i, (symbol, unit) in values.items():
                 if sheet.heads[i] not in silent.get(line, ()):
-                    own = [(k, cells[k], unit) for k, (of, unit) in ways.items() if of == symbol and cells[k]]
-                    told_ways = [(way, unit) for k, way, unit in own if k in by_signs or not is_blank(way)]
-                    made[symbol] = _cell(scene, symbol, unit, cells[i], told_ways, sign)
+                    columns = [(k, cells[k], unit) for k, (of, unit) in directions.items() if of == symbol and cells[k]]
+                    stated = [(text, unit) for k, text, unit in columns if k in by_signs or not is_blank(text)]
+                    made[symbol] = _cell(scene, symbol, unit, cells[i], stated, sign)
             return made
 
         made = read(sheet.sign)
         texts = {symbol: cells[i] for i, (symbol, _) in values.items()}
         if any(_DECIMAL_COMMA.match(texts[s]) for s, c in made.items() if isinstance(c, Printed) and len(c.texts) == 1):
             made = read(";")  # who writes 1075,8 means a decimal by 2,819 too
-        answers.append(Answers(person, at, made, variant=told.get("variant", ""), id=told.get("id", ""), marks=marks))
+        answers.append(Answers(person, at, made, variant=notes.get("variant", ""), id=notes.get("id", ""), marks=marks))
     if problems:
         raise CallError(*problems[:50])
     return tuple(answers), tuple(sheet.heads[i] for i in others)
 
 
-def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, ways: Sequence[tuple[str, str]], sign: str) -> Cell:
+def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, beside: Sequence[tuple[str, str]], sign: str) -> Cell:
     """A cell with its direction or sense from other columns, each with the unit of its head."""
     if is_blank(text):
         return None
     try:
-        way = next((read_way(told, symbol, of_head) for told, of_head in ways), None)
+        way = next((read_way(cell, symbol, of_head) for cell, of_head in beside), None)
         return read_cell(text, symbol, scene.units, unit, sign, way)
     except ValueError as error:
         return text, error.args[0]
@@ -188,7 +188,7 @@ def _columns(
     are added to ``problems``."""
     spelling = spelling_of(scene)
     values: dict[int, tuple[Symbol, str]] = {}
-    ways: dict[int, tuple[Symbol, str]] = {}
+    directions: dict[int, tuple[Symbol, str]] = {}
     roles: dict[Role, int] = {}
     for i, head in enumerate(heads):
         plain, where = plain_text(head).lower().strip(), Phrase("column", name=name, head=head)
@@ -196,13 +196,13 @@ def _columns(
         if role is not None and role not in roles:
             roles[role] = i
             continue
-        told = _WAY.search(head)
-        text, unit = spelling.head(_WAY.sub("", head).strip(" _-:") if told else head)
+        match = _WAY.search(head)
+        text, unit = spelling.head(_WAY.sub("", head).strip(" _-:") if match else head)
         symbol = spelling.symbol(re.sub(r"\bof\b", "", text).strip())
-        if told and symbol is None and not _QUANTITY.match(text) and i - 1 in values:
+        if match and symbol is None and not _QUANTITY.match(text) and i - 1 in values:
             symbol = values[i - 1][0]
-        if symbol is not None and told:
-            ways[i] = symbol, unit
+        if symbol is not None and match:
+            directions[i] = symbol, unit
         elif symbol is None:
             problems += _unknown(scene, text, where) if _QUANTITY.match(text) else []
         else:
@@ -214,7 +214,7 @@ def _columns(
             if symbol in {known for known, _ in values.values()}:
                 problems.append(Problem(where, "stands twice", "keep one of them"))
             values[i] = symbol, unit
-    return values, ways, roles
+    return values, directions, roles
 
 
 def _unknown(scene: Mechanism, text: str, where: Wording) -> list[Problem]:

@@ -107,9 +107,9 @@ def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
     for angle, room, either in directions:
         if angle is None or _near(true - angle, room, either):
             continue
-        ways = (("slip turned back", math.pi), ("slip mirrored", -2 * true), ("slip mirrored", math.pi - 2 * true),
-                ("slip square", math.pi / 2), ("slip square", -math.pi / 2))
-        key = next((key for key, turn in ways if _near(true + turn - angle, room, either)), "slip direction")
+        slips = (("slip turned back", math.pi), ("slip mirrored", -2 * true), ("slip mirrored", math.pi - 2 * true),
+                 ("slip square", math.pi / 2), ("slip square", -math.pi / 2))
+        key = next((key for key, turn in slips if _near(true + turn - angle, room, either)), "slip direction")
         deviation = math.degrees(math.remainder(angle - true, math.pi if either else math.tau))
         return replace(judged, verdict="wrong", looks_like=Phrase(key, angle=f"{deviation:+.0f}"))
     return None
@@ -121,10 +121,10 @@ def _near(deviation: float, room: float, either: bool) -> bool:
 
 def _angle_of(case: Evidence, line: Line) -> float | None:
     """The angle of a line (rad), None where its points are not drawn."""
-    one, two = (case.sheet.points.get(PointRef(name)) for name in (line.one, line.two))
-    if one is None or two is None or one == two:
+    first, second = (case.sheet.points.get(PointRef(name)) for name in (line.one, line.two))
+    if first is None or second is None or first == second:
         return None
-    return cmath.phase((two - one) * (1j if line.square else 1.0))
+    return cmath.phase((second - first) * (1j if line.square else 1.0))
 
 
 def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
@@ -134,7 +134,7 @@ def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
 
 
 def explained(
-    case: Evidence, judged: Judged, own: Mapping[Symbol, Value], wrong: Iterable[Symbol], drawn: bool = True
+    case: Evidence, judged: Judged, answers: Mapping[Symbol, Value], wrong: Iterable[Symbol], drawn: bool = True
 ) -> Judged:
     """A wrong value with its slip; a value that follows from the person's own earlier values is judged so.
 
@@ -144,7 +144,7 @@ def explained(
     judged = replace(judged, line=case.held(symbol).line)
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
     others = [s for s in wrong if s != symbol]
-    follows = _following(case, judged, own, others, chance) if not _copied(case, own, symbol, others) else ()
+    follows = _following(case, judged, answers, others, chance) if not _copied(case, answers, symbol, others) else ()
     suspects = [*_weighed(case, judged), *follows]
     best, deviation = clearest(suspects, chance), None
     if best is None and drawn:
@@ -159,11 +159,11 @@ def explained(
     return replace(judged, verdict=verdict, looks_like=best.phrase, follows_from=best.follows_from, apart=deviation)
 
 
-def _copied(case: Evidence, own: Mapping[Symbol, Value], symbol: Symbol, others: Iterable[Symbol]) -> bool:
+def _copied(case: Evidence, answers: Mapping[Symbol, Value], symbol: Symbol, others: Iterable[Symbol]) -> bool:
     """Whether a value and another wrong one are the answers to the same other problem of a set."""
 
     def problems(of: Symbol) -> set[str]:
-        size = abs(own[of])
+        size = abs(answers[of])
         return {name for name, value in case.variants(of) if abs(abs(value) - size) <= COPIED * size}
 
     there = problems(symbol)
@@ -171,7 +171,7 @@ def _copied(case: Evidence, own: Mapping[Symbol, Value], symbol: Symbol, others:
 
 
 def _following(
-    case: Evidence, judged: Judged, own: Mapping[Symbol, Value], others: Sequence[Symbol], chance: float
+    case: Evidence, judged: Judged, answers: Mapping[Symbol, Value], others: Sequence[Symbol], chance: float
 ) -> Iterator[tuple[Suspect, float]]:
     """The explanations of a value by earlier wrong values, drawn on from each that moves it more than drafting does."""
     symbol = judged.printed.symbol
@@ -181,9 +181,9 @@ def _following(
         return abs(comparable(judged.printed, value, judged.line) - judged.exact) > judged.bound / 3
 
     def causes() -> Iterator[tuple[Value, tuple[Symbol, ...]]]:
-        for value in filter(moved, case.following(own, symbol) if earlier else ()):
-            yield value, tuple(s for s in earlier if any(map(moved, case.following({s: own[s]}, symbol))))
-        by_rates = case.by_rates(own, symbol)
+        for value in filter(moved, case.following(answers, symbol) if earlier else ()):
+            yield value, tuple(s for s in earlier if any(map(moved, case.following({s: answers[s]}, symbol))))
+        by_rates = case.by_rates(answers, symbol)
         if by_rates is not None and not isinstance(judged.printed.value, complex) and moved(by_rates[0]):
             yield by_rates[0], tuple(s for s in by_rates[1] if s in others)
 
@@ -225,12 +225,12 @@ def judge_table(
         for stated in values:
             by_line = by == "computation" and stated.symbol in signed and stated.way.angle is None
             printed = replace(stated, signed=True) if by_line else stated
-            one, error = Judged(printed, exact(row, printed)), errors.get(printed.symbol)
-            one = _by_digits(one, by, 0.0 if error is None or by == "drawing" else float(error[row]))
-            if one.verdict != "right" and by == "drawing":
-                one = _by_digits(one, by, case(_nearest(row, len(rows))).held(printed.symbol).bound)
-            judged.append(_explained_by_digits(one, exact, row, symbols, names) if one.verdict == "wrong" else one)
-        if any(_unexplained(one) for one in judged) and looked_into < MOST_EXPLAINED:
+            cell, error = Judged(printed, exact(row, printed)), errors.get(printed.symbol)
+            cell = _by_digits(cell, by, 0.0 if error is None or by == "drawing" else float(error[row]))
+            if cell.verdict != "right" and by == "drawing":
+                cell = _by_digits(cell, by, case(_nearest(row, len(rows))).held(printed.symbol).bound)
+            judged.append(_explained_by_digits(cell, exact, row, symbols, names) if cell.verdict == "wrong" else cell)
+        if any(_unexplained(cell) for cell in judged) and looked_into < MOST_EXPLAINED:
             looked_into += 1
             judged = _looked_into(case(row), judged, by)
         made.append(tuple(judged))
@@ -338,7 +338,7 @@ def _reach_of(motion: Motion, link: str) -> float:
     """The greatest distance between two points of a link, or of a link on which it slides (m); 0 for a single point."""
     turning = {link, *(slide.b for slide in motion.slides if slide.a == link)} - {motion.scene.frame.name}
     bars = [motion.scene.by_name[name].points.values() for name in turning if name in motion.scene.by_name]
-    return max((abs(one - other) for places in bars for one, other in combinations(places, 2)), default=0.0)
+    return max((abs(first - second) for places in bars for first, second in combinations(places, 2)), default=0.0)
 
 
 def _by_digits(judged: Judged, by: str, bound: float) -> Judged:

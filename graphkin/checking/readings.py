@@ -108,8 +108,8 @@ def report_on(
 
 def _one_vector(sheet: Sheet) -> dict[Symbol, Symbol]:
     """Pairs of vectors that an equation makes equal: the acceleration of a crank pin is its normal part."""
-    alike = [[term.symbol for side in one.sides for term in side] for one in sheet.equations if len(one.sides) == 2]
-    return {one: other for pair in alike if len(pair) == 2 for one, other in (pair, pair[::-1])}
+    alike = [[term.symbol for side in e.sides for term in side] for e in sheet.equations if len(e.sides) == 2]
+    return {first: second for pair in alike if len(pair) == 2 for first, second in (pair, pair[::-1])}
 
 
 def _measured(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument) -> dict[Symbol, Reading]:
@@ -244,9 +244,9 @@ def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured |
         angle = phase(instrument.read_direction(high[symbol.link].axis / low[symbol.link].axis))
         return None, abs(angle + math.tau * round((highest.angle - lowest.angle - angle) / math.tau))
     driver = sheet.scene.drivers[0]
-    one, two = (poses[driver.link].axis / poses[driver.relative_to].axis for poses in (low, high))
+    first, second = (poses[driver.link].axis / poses[driver.relative_to].axis for poses in (low, high))
     sense = -1.0 if driver.values[1] < 0.0 else 1.0
-    between = (sense * phase(instrument.read_direction(two / one))) % math.tau
+    between = (sense * phase(instrument.read_direction(second / first))) % math.tau
     out, back = between - highest.rest, math.tau - between - lowest.rest
     lag = math.pi * abs(out - back) / (out + back)
     lag = 0.0 if abs(lag) < MOST_LOST else lag  # rounding of exact hands: a pencil reads no such angle

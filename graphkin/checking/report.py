@@ -133,16 +133,16 @@ class Report:
     ok: bool = derived()
 
     def __post_init__(self) -> None:
-        found = any(row.ok and not row.by_drivers for row in self.rows) or all(row.by_drivers for row in self.rows)
-        ok = not self.rows or (found and all(row.ok is not False for row in self.rows))
+        compared = any(row.ok and not row.by_drivers for row in self.rows) or all(row.by_drivers for row in self.rows)
+        ok = not self.rows or (compared and all(row.ok is not False for row in self.rows))
         self.__dict__.update(ok=ok)
 
     def must_agree(self) -> None:
         """Raises Disagreement, naming every reading out of tolerance with its drawn and its exact value."""
         problems = []
-        for told in (ReadValue.of(self.sheet.scene, row) for row in self.rows if row.ok is False):
-            drawn, exact = told.shown(told.measured), told.shown(told.exact)
-            problems.append(Problem(str(told.symbol), "by the drawing by computation",
+        for reading in (ReadValue.of(self.sheet.scene, row) for row in self.rows if row.ok is False):
+            drawn, exact = reading.shown(reading.measured), reading.shown(reading.exact)
+            problems.append(Problem(str(reading.symbol), "by the drawing by computation",
                                     "no paper is written please report this scene", value=drawn, exact=exact))
         if problems:
             raise Disagreement(*problems)
@@ -222,9 +222,9 @@ def _row(
     part = FAIR if sheet.instrument in ON_PAPER else COARSE
     fair = whole == 0.0 == least or tolerance <= max(part * whole, least)
     error = abs(symbol.difference(reading.value, exact)) if math.isfinite(abs(exact)) else math.inf
-    told = fair and not (unsure and LAST_DIGITS * whole < abs(exact) <= floor)
+    certain = fair and not (unsure and LAST_DIGITS * whole < abs(exact) <= floor)
     return Compared(
-        reading, exact, error, tolerance, _turned(reading, exact, whole), expected, floor, told, by_drivers
+        reading, exact, error, tolerance, _turned(reading, exact, whole), expected, floor, certain, by_drivers
     )
 
 

@@ -162,7 +162,7 @@ class Judged:
         best = 0.0, "", 0.0
         for text, share, other in transcription_errors(self.printed, self.exact, reach):
             fits = likelihood(self.printed, abs(other - self.exact), spread, abs(self.exact))
-            best = max(best, (share * float(fits), text, share), key=lambda found: found[0])
+            best = max(best, (share * float(fits), text, share), key=lambda error: error[0])
         weight, text, share = best
         if weight:
             yield Suspect(Phrase("slip pen", name=text), self.exact, share, copied=True), weight
@@ -253,11 +253,11 @@ def transcription_errors(
     sense = -1.0 if text.startswith("-") else 1.0
     unit = printed.step / stated(printed.symbol, [text], Units("m")).step
     goal, room = sense * near / unit, within / unit + 1e-9 * abs(float(text))
-    own = _digits(text)
+    written = _digits(text)
     for share, count, texts in _kinds(text, places, np.array(digits), worth, goal - abs(float(text)), room):
         for other in dict.fromkeys(texts):
             value = float(other) * unit
-            if abs(value - near) <= within and _digits(other) != own and not _DOUBLE_ZERO.match(other):
+            if abs(value - near) <= within and _digits(other) != written and not _DOUBLE_ZERO.match(other):
                 yield other, share / count, value
 
 

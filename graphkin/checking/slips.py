@@ -145,13 +145,12 @@ class Evidence:
         of_person = partial(_own_values, self.plan, self.sheet)
         return Stages(self.plan, self.plan.scales, own_values=of_person)
 
-    def following(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
+    def following(self, answers: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
         """The value of a symbol, drawn from the person's own values of other symbols (SI).
 
         Parameters
         ----------
-        own : the person's values, of which those drawn before it count; a vector given by its size keeps its drawn
-            direction
+        answers : of the person, of which those drawn before it count; a vector given by its size keeps its direction
         of : the asked symbol; the person's value of it is not used
 
         Returns
@@ -159,7 +158,7 @@ class Evidence:
         The value of the drawing, then for a sum of terms the sum of these
         """
         try:
-            polygons = self._stages.to(of, {s: v for s, v in own.items() if self.before(s, of)})
+            polygons = self._stages.to(of, {s: v for s, v in answers.items() if self.before(s, of)})
         except (GraphkinError, ArithmeticError, np.linalg.LinAlgError):
             return ()  # a drawing that cannot be gone on with
         if polygons is None:
@@ -178,26 +177,26 @@ class Evidence:
                     values.append(added_up(spans, 0j) * scale)
         return tuple(values)
 
-    def by_rates(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[float, tuple[Symbol, ...]] | None:
-        """The size of the acceleration of a point about a fixed pivot (SI) by the person's own rates, and these; None
-        where they state no angular acceleration, or the tangential component from which it follows."""
+    def by_rates(self, answers: Mapping[Symbol, Value], of: Symbol) -> tuple[float, tuple[Symbol, ...]] | None:
+        """The size of the acceleration of a point about a fixed pivot (SI) by the person's rates, and these; None where
+        they state no angular acceleration, or the tangential component from which it follows."""
         scene, point = self.sheet.scene, of.of
         if of.kind != "a" or point is None or of.to is not None:
             return None
-        if any(s.kind == "at" and s.of is not None and s.of.point == point.point for s in own):
+        if any(s.kind == "at" and s.of is not None and s.of.point == point.point for s in answers):
             return None
         for link in _links_of(scene, point):
             rates = Symbol("omega", link=link.name), Symbol("alpha", link=link.name)
             pivots = [link.points[name] for name in scene.pivots(link.name)]
-            if pivots and rates[1] in own:
-                omega, alpha = (float(own[s].real if s in own else self.exact(s).real) for s in rates)
+            if pivots and rates[1] in answers:
+                omega, alpha = (float(answers[s].real if s in answers else self.exact(s).real) for s in rates)
                 arm = abs(link.points[point.point] - pivots[0])
-                return arm * math.hypot(omega**2, alpha), tuple(s for s in rates if s in own)
+                return arm * math.hypot(omega**2, alpha), tuple(s for s in rates if s in answers)
         return None
 
-    def before(self, one: Symbol, other: Symbol) -> bool:
+    def before(self, earlier: Symbol, later: Symbol) -> bool:
         """Whether a quantity is known on the drawing before another, which can then follow from it."""
-        return _step(self.sheet, one) < _step(self.sheet, other)
+        return _step(self.sheet, earlier) < _step(self.sheet, later)
 
 
 def _made(alterations: Iterable[Alteration]) -> tuple[Slipped, ...]:
@@ -384,9 +383,9 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     for other, value in ((symbol, exact), *alike):
         for axis, part in (("x", value.real), ("y", value.imag)):
             if abs(part) > 1e-6 * abs(value) and abs(abs(part) - abs(value)) > 1e-6 * abs(value):
-                own = other == symbol
-                key = "slip component" if own else "slip other component"
-                yield Suspect(Phrase(key, axis=axis, name=str(other)), part, 0.05 if own else 0.05 / len(alike))
+                same = other == symbol
+                key = "slip component" if same else "slip other component"
+                yield Suspect(Phrase(key, axis=axis, name=str(other)), part, 0.05 if same else 0.05 / len(alike))
 
 
 def _sort(symbol: Symbol) -> str:
@@ -409,23 +408,23 @@ def _step(sheet: Sheet, symbol: Symbol) -> float:
     return float(sheet.drawn_in.get(symbol, math.inf))
 
 
-def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> OwnValues:
+def _own_values(plan: Plan, base: Sheet, answers: Mapping[Symbol, Value]) -> OwnValues:
     """The changes with which a drawing continues from the person's own values (SI) in place of the drawn ones."""
 
     def ratio(symbol: Symbol | None) -> float:
         """The person's value over the drawn one, 1 where there is none."""
-        if symbol is None or symbol not in own:
+        if symbol is None or symbol not in answers:
             return 1.0
         if symbol.is_vector:
             drawn = base.vectors["velocity"].get(symbol)
             size = abs(drawn.span) * base.scales.velocity if drawn else 0.0
-            return abs(own[symbol]) / size if size else 1.0
+            return abs(answers[symbol]) / size if size else 1.0
         rate = base.rates["omega"].get(symbol.link)
-        return float(own[symbol].real) / rate.value if rate and rate.value else 1.0
+        return float(answers[symbol].real) / rate.value if rate and rate.value else 1.0
 
     def sized(symbol: Symbol, drawn: complex) -> complex:
         """A vector on paper with the person's own size, or their own components."""
-        value = own[symbol]
+        value = answers[symbol]
         scale = base.scales.velocity if symbol.kind == "v" else base.scales.acceleration
         if isinstance(value, complex):
             return value / scale
@@ -435,7 +434,7 @@ def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> OwnValu
         """A known term with the person's own size, or made from the person's own velocities."""
         if part.span is None:
             return part
-        if part.symbol in own:
+        if part.symbol in answers:
             return replace(part, span=sized(part.symbol, part.span))
         of, to = part.symbol.of, part.symbol.to
         drawn = base.vectors["acceleration"].get(part.symbol)
@@ -449,10 +448,10 @@ def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> OwnValu
         return replace(part, span=drawn.span * factor) if factor != 1.0 else part
 
     def found(symbol: Symbol, tail: complex, tip: complex) -> complex:
-        return tail + sized(symbol, tip - tail) if symbol in own else tip
+        return tail + sized(symbol, tip - tail) if symbol in answers else tip
 
     def rate(symbol: Symbol, value: float) -> float | None:
-        return float(own[symbol].real) if symbol in own else None
+        return float(answers[symbol].real) if symbol in answers else None
 
     return OwnValues(term, found, rate)
 
@@ -529,9 +528,9 @@ def _force_slips(motion: Motion) -> Iterator[Alteration]:
         yield slip("slip load not here", load.name, 0.15 / len(idle), loads=(*right.loads, load))
 
 
-def _instead(things: Sequence[T], one: T, *others: T) -> tuple[T, ...]:
-    """The items with others in place of one."""
-    return tuple(kept for thing in things for kept in (others if thing is one else (thing,)))
+def _instead(members: Sequence[T], replaced: T, *others: T) -> tuple[T, ...]:
+    """The members with others in place of one."""
+    return tuple(kept for member in members for kept in (others if member is replaced else (member,)))
 
 
 def _under(motion: Motion, loading: Loading) -> Forces:
@@ -545,8 +544,8 @@ def _forces(motion: Motion, loading: Loading) -> Values:
     forces = _under(motion, loading)
 
     def value(symbol: Symbol) -> Value | None:
-        found = forces.value(symbol)
-        return None if found is None else _finite(symbol, found[0])
+        course = forces.value(symbol)
+        return None if course is None else _finite(symbol, course[0])
 
     return value
 
@@ -593,17 +592,17 @@ def _gear_slips(motion: Motion) -> Iterator[Alteration]:
         return Phrase(key, name=gear.name), share * each, partial(_motions, replace(scene, higher_pairs=pairs))
 
     for gear in scene.gears:
-        one, two = gear.teeth
-        if two is not None:
-            turned = replace(gear, teeth=(math.copysign(two, one), math.copysign(one, two)))
-            outside = replace(gear, teeth=(one, -two))
+        first, second = gear.teeth
+        if second is not None:
+            turned = replace(gear, teeth=(math.copysign(second, first), math.copysign(first, second)))
+            outside = replace(gear, teeth=(first, -second))
             yield slip("slip teeth exchanged", gear, 0.08, {gear: turned})
             yield slip("slip teeth sense", gear, 0.1, {gear: outside})
         if scene.frame.name not in (gear.carrier, *gear.bodies):
             standing = replace(gear, carrier=scene.frame.name)
             yield slip("slip carrier", gear, 0.1, {gear: standing})
-        if two is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
-            swapped = {(gear.bodies[0], abs(one)): abs(two), (gear.bodies[1], abs(two)): abs(one)}
+        if second is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
+            swapped = {(gear.bodies[0], abs(first)): abs(second), (gear.bodies[1], abs(second)): abs(first)}
             yield slip("slip teeth exchanged", gear, 0.08, {g: _with(g, swapped) for g in scene.gears})
 
 
@@ -630,8 +629,8 @@ def _standing_here(motion: Motion) -> Mechanism:
 
 def _with(gear: PlacedGear, numbers: Mapping[tuple[str, float], float]) -> PlacedGear:
     """A mesh with other numbers of teeth, given by link and old number; a rack has none."""
-    one, two = (
+    first, second = (
         z if z is None else math.copysign(numbers.get((link, abs(z)), abs(z)), z)
         for link, z in zip(gear.bodies, gear.teeth, strict=True)
     )
-    return replace(gear, teeth=(one or gear.teeth[0], two))
+    return replace(gear, teeth=(first or gear.teeth[0], second))

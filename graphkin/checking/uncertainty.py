@@ -144,19 +144,19 @@ def _bent(
 ) -> NDArray[np.float64]:
     """The factor by which the error of each reading exceeds first order where all acts err together in the most
     probable combination for three deviations; shape (readings,)."""
-    ways: list[tuple[NDArray[np.float64], tuple[Values, ...]]] = []
+    nudges: list[tuple[NDArray[np.float64], tuple[Values, ...]]] = []
     times = np.ones(len(base))
     for i, (symbol, row) in enumerate(zip(base, moved, strict=True)):
         if not np.isfinite(row).all() or not row.any():
             continue
         errors = _easiest(row)
-        drawn = next((x for x in ways if abs(float(errors @ x[0])) > ALIKE), None)
+        drawn = next((x for x in nudges if abs(float(errors @ x[0])) > ALIKE), None)
         if drawn is None:
             acts = np.flatnonzero(errors).tolist()
             wrong = ({k + 1: sense * COVERAGE * float(errors[k]) for k in acts} for sense in (1.0, -1.0))
             tried = (read(nudged(name, tools, errs)) for errs in wrong)
             drawn = errors, tuple(values for values in tried if values is not None)
-            ways.append(drawn)
+            nudges.append(drawn)
         expected = COVERAGE * abs(complex(row @ drawn[0]))
         offs = [abs(symbol.difference(values[symbol], base[symbol])) for values in drawn[1] if symbol in values]
         times[i] = max(offs) / expected if offs else 1.0

@@ -174,13 +174,13 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     problems = list[Problem]()
     for line, who in read:
         where = Phrase("line of students and line", students=students, line=line)
-        own = [scheme_for(who, course)] if who.scheme or len(course) == 1 else [*course.values()]
-        known = {name: values for scheme in own for name, values in scheme.places.items()}
+        allowed = [scheme_for(who, course)] if who.scheme or len(course) == 1 else [*course.values()]
+        known = {name: values for scheme in allowed for name, values in scheme.places.items()}
         if who.scheme and who.scheme not in course and not may_be_groups:
             problems.append(Problem(where, "there is no scheme", did_you_mean(who.scheme, course), scheme=who.scheme))
         elif who.place and who.place not in known:
             problems.append(Problem(where, "there is no position", did_you_mean(who.place, known), at=who.place))
-        elif who.place and len(own) == 1 and not known[who.place].read:
+        elif who.place and len(allowed) == 1 and not known[who.place].read:
             problems.append(Problem(where, "position cannot be drawn", "give another one", place=who.place))
     if problems:
         raise CallError(*problems)
@@ -373,7 +373,7 @@ def _value_tables(
         columns = tuple((("en", lesson.letters.vector(s) + f" {lesson.unit(s)}"),) for s in part)
         rows = tuple(
             (*named, number(place.driver, DIGITS),
-             *(" / ".join(number(place.read[one], DIGITS) for one in s.both if one in place.read) or "–" for s in part))
+             *(" / ".join(number(place.read[x], DIGITS) for x in s.both if x in place.read) or "–" for s in part))
             for named, place in zip(cells, places, strict=True)
         )
         align = "l" * len(heads) + "r" * (1 + len(part))

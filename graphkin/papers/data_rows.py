@@ -189,8 +189,8 @@ def _known_names(source: Tables) -> dict[str, Setter]:
         for key, letters in _LETTERS.items():
             for letter, index in product(letters.split(), (link, f"_{link}", *(("", "_") if i == 0 else ()))):
                 known.setdefault(letter + index, partial(_driven, where, driver, key))
-    for one, other, entries in _distances(source):
-        known.setdefault(one + other, partial(_placed, entries))
+    for first, second, entries in _distances(source):
+        known.setdefault(first + second, partial(_placed, entries))
     return known
 
 
@@ -231,14 +231,14 @@ def _distances(source: Tables) -> Iterator[tuple[str, str, Entries]]:
     for point, entry in fixed.items():
         if isinstance(entry, Mapping):
             yield from _both_ways(point, str(entry.get("from")), [(f"frame.points.{point}.r", 0.0, 1.0)])
-    for one, other in permutations((p for p, xy in fixed.items() if isinstance(xy, list)), 2):
+    for first, second in permutations((p for p, xy in fixed.items() if isinstance(xy, list)), 2):
         # the point at the origin stays there
-        still, moved = (one, other) if any(fixed[other]) else (other, one)
-        way = [b - a for a, b in zip(fixed[still], fixed[moved], strict=True)]
-        if size := math.hypot(*way):
-            ends = zip("xy", fixed[still], way, strict=True)
-            yield one, other, [(f"frame.points.{moved}.{axis}", a, c / size) for axis, a, c in ends]
+        still, moved = (first, second) if any(fixed[second]) else (second, first)
+        span = [b - a for a, b in zip(fixed[still], fixed[moved], strict=True)]
+        if size := math.hypot(*span):
+            ends = zip("xy", fixed[still], span, strict=True)
+            yield first, second, [(f"frame.points.{moved}.{axis}", a, c / size) for axis, a, c in ends]
 
 
-def _both_ways(one: str, other: str, entries: Entries) -> Iterator[tuple[str, str, Entries]]:
-    yield from ((one, other, entries), (other, one, entries))
+def _both_ways(first: str, second: str, entries: Entries) -> Iterator[tuple[str, str, Entries]]:
+    yield from ((first, second, entries), (second, first, entries))

@@ -258,8 +258,8 @@ def task_with_source(lesson: Lesson) -> Iterator[Paragraph]:
     language, names = lesson.language, languages(lesson.language)
     sources = {each: lesson.sheet.scene.question.source_in(each) for each in names}
     if len(set(sources.values())) > 1:
-        told = ((each, word("source", each) + word("colon", each) + text) for each, text in sources.items() if text)
-        yield Paragraph(tuple(told), small=True)
+        labelled = ((each, word("source", each) + word("colon", each) + text) for each, text in sources.items() if text)
+        yield Paragraph(tuple(labelled), small=True)
     elif sources[names[0]]:
         label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
         yield Paragraph(once(label + sources[names[0]], language), small=True)
@@ -505,8 +505,8 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
             continue
         if leads_on[k]:
             plans_before = sum(map(len, pages[k : leads_on.index(False, k)]))
-            told = _told(lesson, stage, count + plans_before + 1)
-            yield Together((*told, *step_items(lesson, stage, len(stage.steps) > 1)))
+            lines = _told(lesson, stage, count + plans_before + 1)
+            yield Together((*lines, *step_items(lesson, stage, len(stage.steps) > 1)))
             first = first or stage.first
         else:
             count += 1
@@ -541,7 +541,7 @@ def force_stages_of(lesson: Lesson) -> Iterator[tuple[ForceStage, Said, tuple[St
     for stage in force_stages(lesson.account):
         several = len(sheet.forces) > 1 and bool(stage.group.links)
         load = lesson.said("force with load" if stage.again else "force without load") if several else ()
-        steps = ((told.step.number, in_each(language, told.sentence), told.work_in(language)) for told in stage.steps)
+        steps = ((s.step.number, in_each(language, s.sentence), s.work_in(language)) for s in stage.steps)
         yield stage, load, tuple(StepItem(*step) for step in steps)
 
 
@@ -618,8 +618,8 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
 def step_items(lesson: Lesson, stage: Stage, parted: bool = False) -> tuple[StepItem, ...]:
     """The steps of a stage in words and numbers."""
     return tuple(
-        StepItem(told.step.number, in_each(lesson.language, told.sentence), told.work, parted)
-        for told in (telling(lesson.account, step) for step in stage.steps)
+        StepItem(words.step.number, in_each(lesson.language, words.sentence), words.work, parted)
+        for words in (telling(lesson.account, step) for step in stage.steps)
     )
 
 

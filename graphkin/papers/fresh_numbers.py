@@ -302,8 +302,7 @@ def _radii(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
             if not _on_its_face(made, contact):
                 return False
             continue
-        one, two = made["contacts"][contact.name]["between"]
-        radii = [_disc(made, ref) for ref in (one, two)]
+        radii = [_disc(made, ref) for ref in made["contacts"][contact.name]["between"]]
         signs = [math.copysign(1.0, radius) for radius in contact.radii]
         here = _axle_key(made, contact.carrier, contact.centres)
         if here is None or not free(here):

@@ -168,10 +168,10 @@ class Lesson:
         have = {row.symbol for row in self.report.rows}
         if self.sheet.asked:
             return tuple(s for s in self.sheet.asked if s in have)
-        found = (row.symbol for row in self.report.rows if self._is_result(row.symbol) and row.symbol.to is None)
+        symbols = (row.symbol for row in self.report.rows if self._is_result(row.symbol) and row.symbol.to is None)
         whole = self.sheet.scene.whole
         return tuple(
-            symbol for symbol in found
+            symbol for symbol in symbols
             if symbol.kind in ("v", "a", "omega", "alpha") and isinstance(known_symbol("", str(symbol), whole), Symbol)
         )
 

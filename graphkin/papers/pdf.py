@@ -154,7 +154,7 @@ def _drawing(drawing: Drawing) -> Data:
     """A figure as an SVG with the faces of the document, and its description; no SVG for a figure without ink."""
     seen = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
     # a handout has no picture under its figures
-    inked = moved(map_tree(drawing.children, lambda thing: None if isinstance(thing, Scan) else thing), EDGE * (1 + 1j))
+    inked = moved(map_tree(drawing.children, lambda shape: None if isinstance(shape, Scan) else shape), EDGE * (1 + 1j))
     wide, high = drawing.width + 2 * EDGE, drawing.height + 2 * EDGE
     svg = svg_element(replace(drawing, width=wide, height=high, children=inked), alone=True) if inked else ""
     size = {"width": _mm(drawing.width), "height": _mm(drawing.height), "edge": EDGE}
@@ -316,8 +316,8 @@ def _filled(pieces: Sequence[PageItem], wide: float, high: float, sizes: Sizes) 
     """Pages of some pieces.  Where they would have much white, some figures go below their words, not beside them."""
 
     def filled(below: frozenset[int]) -> tuple[list[Page], float, bool]:
-        ready = [one for i, piece in enumerate(pieces) for one in _fitted(piece, wide, sizes, i in below)]
-        gaps = [0.0, *(_gap(one.block, other.block) for one, other in pairwise(ready))]
+        ready = [fitted for i, piece in enumerate(pieces) for fitted in _fitted(piece, wide, sizes, i in below)]
+        gaps = [0.0, *(_gap(before.block, after.block) for before, after in pairwise(ready))]
         placed = zip(ready, gaps, strict=True)
         return fill_pages([replace(p, gap=gap, height=_height(p, wide, sizes)) for p, gap in placed], high)
 
@@ -513,8 +513,8 @@ def _rows(page: _Begun, pieces: Sequence[PageItem], height: float, last: bool) -
             k, _ = balanced([piece.height for piece in columns])
             rows.append(Row(columns[:k], columns[k:], columns[0].gap))
         else:
-            shown = (one for one in columns if page.room or not one.fills)
-            rows += [Row((one,), (), one.gap, page.room if one.fills else 0.0) for one in shown]
+            shown = (piece for piece in columns if page.room or not piece.fills)
+            rows += [Row((piece,), (), piece.gap, page.room if piece.fills else 0.0) for piece in shown]
     if rows:
         rows[0] = replace(rows[0], gap=0.0)
     heads = [row.left[0] for row in rows]

@@ -97,7 +97,7 @@ def stage_picture(lesson: Lesson, layers: Layers, diagram: DiagramName, first: i
     seen = so_far(layers, first if first > steps[0] else last + 1, last)
     if first <= steps[0]:
         whole = so_far(layers, steps[0], last)
-        seen = map_tree(whole, lambda thing: None if isinstance(thing, Group) and "new" in thing.classes else thing)
+        seen = map_tree(whole, lambda shape: None if isinstance(shape, Group) and "new" in shape.classes else shape)
     return _cropped(lesson, seen, term(FIGURE_WORDS[diagram], lesson.language), "", diagram)
 
 
@@ -110,20 +110,20 @@ def mechanism_picture(lesson: Lesson) -> Drawing:
     special = lesson.sheet.special_points
     special_ids = {f"{part}-{point}" for point in special for part in ("special", "point", "label-point")}
 
-    def names_result(thing: Primitive | None) -> bool:
+    def names_result(shape: Primitive | None) -> bool:
         results = ("label-omega-", "label-alpha-", "label-trial-")
-        named = isinstance(thing, Text) and thing.id.startswith(results)
-        return named or (isinstance(thing, Group | Text) and thing.id in special_ids)
+        named = isinstance(shape, Text) and shape.id.startswith(results)
+        return named or (isinstance(shape, Group | Text) and shape.id in special_ids)
 
     kept = []
     for layer in parts(lesson, "mechanism"):
         if layer.id not in ("answers", "construction"):
             both = zip(layer.children, (*layer.children[1:], None), strict=True)
-            things = tuple(
-                thing for thing, after in both if not names_result(thing)
-                and not (isinstance(thing, Group) and "leader" in thing.classes and names_result(after))
+            shapes = tuple(
+                shape for shape, after in both if not names_result(shape)
+                and not (isinstance(shape, Group) and "leader" in shape.classes and names_result(after))
             )
-            kept.append(layer._replace(children=things))
+            kept.append(layer._replace(children=shapes))
     described = describe(lesson.sheet, ("mechanism",), lesson.language)
     return _cropped(lesson, kept, term("mechanism", lesson.language), described, "mechanism")
 

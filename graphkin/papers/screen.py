@@ -154,14 +154,14 @@ def positions_data(views: Sequence[Lesson], progress: Progress | None) -> dict[s
     stages: list[dict[str, str]] = []  # most of them are the same in every position
     positions = []
     for done, (view, (piece, _)) in enumerate(zip(views, pieces, strict=True), 1):
-        position, own = _position(view, piece, frames, cams)
-        for stage in own:
+        position, sections = _position(view, piece, frames, cams)
+        for stage in sections:
             if stage not in stages:
                 stages.append(stage)
-        positions.append(position | {"stages": [stages.index(stage) for stage in own]})
+        positions.append(position | {"stages": [stages.index(stage) for stage in sections]})
         if progress is not None:
             progress(done, len(views))
-    columns: dict[str, list[object]] = {key: [one[key] for one in positions] for key in positions[0]}
+    columns: dict[str, list[object]] = {key: [row[key] for row in positions] for key in positions[0]}
     for key in LISTED:
         columns[key] = [list(row) for row in zip_longest(*columns[key])]  # type: ignore[call-overload]
     return {"positions": columns, "stages": stages}
@@ -256,9 +256,9 @@ def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
             for row in lesson.results if row.symbol.is_vector and row.symbol.measure.name == name
         )
         title = term(FIGURE_WORDS[name] if name != "centres" else name, lesson.language)
-        told = whole_sentence(spoken_words(at, first), first) + word("between sentences", first) + vectors
+        spoken = whole_sentence(spoken_words(at, first), first) + word("between sentences", first) + vectors
         shown = stepped(children) if is_stepped else children
-        drawing = Drawing(panel.width, panel.height, shown, title, str(told), first)
+        drawing = Drawing(panel.width, panel.height, shown, title, str(spoken), first)
         scale = scale_statement(lesson.sheet, letters.convention, name if name != "centres" else "mechanism")
         yield _figure(name, drawing, words_html(title, first), words_html(scale, first), named=is_stepped)
 
@@ -322,8 +322,8 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
             equation = group_equation(page, group)
             svg = "" if equation is None else svg_element(equation)
         title += f" <small>{said_html(load)}</small>" if load else ""
-        found = (_force_found(lesson, stage, told) for told in stage.steps)
-        yield {"title": title, "svg": svg}, name, [*zip(items, found, strict=True)]
+        forces = (_force_found(lesson, stage, words) for words in stage.steps)
+        yield {"title": title, "svg": svg}, name, [*zip(items, forces, strict=True)]
     lever = lever_figure(lesson.page("lever"))
     if lever is not None:
         figures.append(_figure("lever", lever, said_html(lesson.said("lever"))))
@@ -356,11 +356,11 @@ def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
     return _find(lesson, vectors[-1].symbol, vectors[-1].span * sheet.scales.of(step.diagram))
 
 
-def _force_found(lesson: Lesson, stage: ForceStage, told: InForces) -> dict[str, Json]:
+def _force_found(lesson: Lesson, stage: ForceStage, words: InForces) -> dict[str, Json]:
     """The result of a step of the forces that finds a single force or moment."""
-    if len(told.step.finds) != 1:
+    if len(words.step.finds) != 1:
         return {}
-    (symbol,) = told.step.finds
+    (symbol,) = words.step.finds
     back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
     for side, sense in ((symbol, 1.0), (back, -1.0)):
         value = stage.state.moments.get(side) or stage.state.vectors.get(side)

@@ -206,13 +206,13 @@ def examined(
             raise Unfit(next(_unread(sheet, asked), Phrase("unfit nothing moves")))
         most = {s: bounds.tolerance * abs(value) for s, value in read}
         spare = max(0, len(read) - fewest) if chosen else 0
-        found = predict(planned, "pencil", scene.question.sheet.tools, together=False, most=most, spare=spare)
-        first = {s: u.bound for s, u in found.items()}
+        errors = predict(planned, "pencil", scene.question.sheet.tools, together=False, most=most, spare=spare)
+        first = {s: u.bound for s, u in errors.items()}
         if chosen:
             usual = asked_of(scene)
             asked = _within_reach(read, first, bounds.tolerance, fewest)
             asked = usual if set(usual) <= set(asked) else asked[:MOST_ASKED]
-            read = answers = tuple(one for one in answers if one[0] in asked)
+            read = answers = tuple(answer for answer in answers if answer[0] in asked)
             made["find"] = [str(s) for s in asked]
         for symbol, value in read:
             if why := _missed(symbol, value, first.get(symbol, 0.0), bounds.tolerance):
@@ -485,8 +485,8 @@ def make(
         waiting.append((job, variant, workers.start(_rendered, render, variant) if new else None))
         while len(waiting) > (workers.ahead if render is not None else 0):
             settle(*waiting.popleft())
-    for one in waiting:
-        settle(*one)
+    for rendering in waiting:
+        settle(*rendering)
     if finish is not None:
         finish(made)
     if points is not None and not refused:

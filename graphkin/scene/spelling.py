@@ -145,8 +145,8 @@ class Spelling:
             return symbol
 
         def plain(ref: PointRef | None) -> PointRef | None:
-            own = ref is not None and ref.link in self.points.get(ref.point, frozenset())
-            return PointRef(ref.point) if ref is not None and own else ref
+            known = ref is not None and ref.link in self.points.get(ref.point, frozenset())
+            return PointRef(ref.point) if ref is not None and known else ref
 
         return replace(symbol, of=plain(of), to=plain(to))
 
@@ -204,10 +204,10 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
         power = int(match["times"])
     time = _TIMES[match["over"] or match["one"] or match["by"] or ""]
     table = _LENGTHS if measure.length else _ANGLES
-    what = match["what"]
-    if power != measure.order or what not in table or (power == 0 and what in ("", "1")):
+    name = match["what"]
+    if power != measure.order or name not in table or (power == 0 and name in ("", "1")):
         return None
-    return table[what] / time**power
+    return table[name] / time**power
 
 
 _MEASURED = [Symbol.parse(name) for name in ("v_A", "a_A", "omega_1", "alpha_1", "x_A", "theta_1", "F_1/2", "M_1/2")]
@@ -332,10 +332,8 @@ def way_in(text: str, symbol: Symbol) -> tuple[Way, str]:
                 return Way(sense=sense), _without(text, match)
         return Way(), text
     lines, text = _lines(text, symbol)
-    way = next(_ways(text, symbol), None)
-    if way is None:
-        return Way(lines=lines), text
-    return Way(way[0].angle, way[0].room, either=way[0].either, lines=lines), way[1]
+    way, rest = next(_ways(text, symbol), (Way(), text))
+    return replace(way, lines=lines), rest
 
 
 def _without(text: str, match: re.Match[str]) -> str:
@@ -516,9 +514,9 @@ def read_cell(
         plain = _TWO_WAYS.sub(_two_components, plain)
         plain = _LABELLED.sub(lambda m: "; ".join((m[2], m[4])[:: 1 if m[1] in "xX" else -1]) + f" {m[3]}", plain)
     plain = re.sub(r"(?:±|\+/-|\+-).*$", "", plain)
-    own, rest = way_in(plain, symbol)
+    written, rest = way_in(plain, symbol)
     rest = rest.rpartition("=")[2]
-    way = own if own.says else way or Way()
+    way = written if written.says else way or Way()
     numbers = [match[0].removesuffix(".") for match in _BARE_NUMBER.finditer(rest)]
     left = re.sub(r"[;:,()\[\]<>⟨⟩|、。\s]+", " ", _ASIDE.sub(" ", _BARE_NUMBER.sub(" ", rest)))
     left = " ".join(dict.fromkeys(left.split()))  # both components may bear the unit

@@ -127,7 +127,7 @@ class Audited(OfScene, Result):
 
     def __getitem__(self, name: str) -> tuple[JudgedValue, ...]:
         """The judged values of a symbol, one a person, in the file's units.  Raises CallError if nobody gave it."""
-        judged = [j for _, own in self.people for j in own]
+        judged = [j for _, row in self.people for j in row]
         symbol = named({str(j.printed.symbol): j.printed.symbol for j in judged}, name, Phrase("no value of this name"))
         values = (j for j in judged if j.printed.symbol == symbol)
         return tuple(JudgedValue.of(self.mechanism, value, self.language) for value in values)
@@ -242,8 +242,8 @@ def audit(
 
     @cache
     def case(place: float | str | None, variant: str = "") -> Evidence:
-        own = _others_values(problems, variant) if variant else (lambda symbol: ())
-        return evidence_at(problems[variant], asked, at if place is None else place, own)
+        elsewhere = _others_values(problems, variant) if variant else (lambda symbol: ())
+        return evidence_at(problems[variant], asked, at if place is None else place, elsewhere)
 
     table = [who for who in people if not who.variant and (who.by == "computation" or who.at is not None)]
     few = len(table) <= MOST_DRAWN and all(who.by == "drawing" for who in table)
@@ -255,10 +255,10 @@ def audit(
         return judge(case(who.at, who.variant), who.values)
 
     judged = tuple((who, of(who)) for who in people)
-    opened = [(who, own) for who, own in judged if any(
-        j.verdict == "wrong" and j.printed.symbol.kind in ("theta", "s") for j in own)]
-    told = {id(who): with_gaps(case(who.at, who.variant), own) for who, own in opened[:MOST_LOOPS]}
-    judged = tuple((who, told.get(id(who), own)) for who, own in judged)
+    opened = [(who, row) for who, row in judged if any(
+        j.verdict == "wrong" and j.printed.symbol.kind in ("theta", "s") for j in row)]
+    gapped = {id(who): with_gaps(case(who.at, who.variant), row) for who, row in opened[:MOST_LOOPS]}
+    judged = tuple((who, gapped.get(id(who), row)) for who, row in judged)
     return Audited(given, judged, language or given.question.sheet.language, unused, scheme, scans)
 
 
@@ -280,13 +280,13 @@ def _problems(
                            named=some_of(named))
     scenes: dict[str, SceneLike] = {}
     if isinstance(variants, Mapping):
-        scenes = {str(name): one for name, one in variants.items()}
+        scenes = {str(name): variant for name, variant in variants.items()}
     else:
         folder = path_of(variants)
         scenes = {path.stem.rpartition("-")[2]: path for path in sorted(folder.rglob("*-*.toml"))}
     plain = {name.lstrip("0") or "0": name for name in scenes}
     problems = []
-    made = {"": scene, **{name: as_scene(one) for name, one in scenes.items()}}
+    made = {"": scene, **{name: as_scene(variant) for name, variant in scenes.items()}}
     for name in named:
         key = name if name in scenes else plain.get(name.lstrip("0") or "0")
         if key is None:
@@ -299,12 +299,12 @@ def _problems(
     return made
 
 
-def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhere:
+def _others_values(problems: Mapping[str, Mechanism], variant: str) -> ValuesElsewhere:
     """Exact values of the other problems of a set, by their names."""
     @cache
     def values(symbol: Symbol) -> tuple[tuple[str, Value], ...]:
         others = {id(scene): (name, scene) for name, scene in reversed([*problems.items()])  # "02" is "2" too
-                  if name and scene is not problems[own]}
+                  if name and scene is not problems[variant]}
         return tuple((name, exact_values(solver.solve(scene), [symbol])[symbol]) for name, scene in others.values())
 
     return values

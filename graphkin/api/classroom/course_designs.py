@@ -157,11 +157,11 @@ def course_design(
     elif variants is not None:
         sources, data = drawn_schemes(scene, variants, seed, find)
     mechanisms = {name: for_paper(source) for name, source in sources.items()}
-    course = {name: scheme_of(name, own, asked_symbols(own, find), count) for name, own in mechanisms.items()}
+    course = {name: scheme_of(name, paper, asked_symbols(paper, find), count) for name, paper in mechanisms.items()}
     if students is None:
         place = at if isinstance(at, str) else ""
         dealt = [
-            (Student(scheme=name, place=place), driver_values(own.scene, at)) for name, own in course.items()
+            (Student(scheme=name, place=place), driver_values(scheme.scene, at)) for name, scheme in course.items()
         ]
     else:
         dealt = [(who, scheme_for(who, course).values(who.place)) for who in dealt_out(students, course)]

@@ -201,12 +201,12 @@ def problem_set(
                 blank = answers_template(tuple(asked), given.units, speaking, lines, "variant")
                 write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
             for paper in ("problem", "key"):
-                own = [folder / f"{name}-{variant}-{paper}.pdf" for variant in made.answers]
-                if own and all(path.is_file() for path in own):
-                    whole = one_after_another([path.read_bytes() for path in own])
+                papers = [folder / f"{name}-{variant}-{paper}.pdf" for variant in made.answers]
+                if papers and all(path.is_file() for path in papers):
+                    whole = one_after_another([path.read_bytes() for path in papers])
                     write_files(folder / f"{paper}s", {f"all-{paper}s.pdf": whole})
             single = [{file: folder / f"{name}-{variant}-{file}" for file in BANKED} for variant in made.answers]
-            here = [{file: path.read_bytes() for file, path in own.items() if path.is_file()} for own in single]
+            here = [{file: path.read_bytes() for file, path in files.items() if path.is_file()} for files in single]
             write_files(folder, bank(name, here))
             for path in left:
                 path.unlink(missing_ok=True)
