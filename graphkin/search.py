@@ -52,8 +52,7 @@ def last_true(
 
 
 def zero_between(function: Callable[[float], float], low: float, high: float) -> float:
-    """The zero of a function, which takes long, between two places at which it has opposite senses; or the place on the
-    way there at which it has no value (nan).
+    """The zero of a slow function between two places of opposite senses, or the place on the way there where it is nan.
 
     By proportional division, the value of an end halved that stays for the second time (regula falsi, Illinois variant;
     Dowell and Jarratt, BIT 11, 1971).
@@ -445,12 +444,12 @@ class Pieces:
 
     def _crossings(self, coefficients: Array, noise: Array, roots: Sequence[float]) -> list[float]:
         """Where curves cross zero and no polynomial tells the root: where two pieces meet, or several roots at once,
-        which rounding moves off the axis.  The middle of the stretch along which there is nothing but noise is meant.
+        which rounding moves off the axis.  Of a stretch of noise, its middle.
 
         Parameters
         ----------
         coefficients : shape (pieces, k)
-        noise : shape (pieces,), what is no more tells no sign
+        noise : shape (pieces,), below which no sign is sure
         roots : those known
         """
         whole = self.high[-1] - self.low[0]

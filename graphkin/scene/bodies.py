@@ -327,7 +327,7 @@ def _circle_of_references(link: Link) -> list[str]:
 
 
 def sliding_pairs(reading: Reading) -> tuple[Pair, ...]:
-    """The sliding pairs of the file; what is wrong with them is noted."""
+    """The sliding pairs of the file; their problems are noted."""
     pairs: list[Pair] = []
     for name, link in reading.links.items():
         if link.on is None:
@@ -365,7 +365,7 @@ def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: li
 
 
 def pins_in_slots(reading: Reading) -> tuple[Pair, ...]:
-    """The pins in slots of a file of which the sliding pairs are known; what is wrong with them is noted."""
+    """The pins in slots of a file with known sliding pairs; their problems are noted."""
     pins: list[Pair] = []
     for point, pin in reading.pins.items():
         where = f"pins.{point}"
@@ -489,7 +489,7 @@ Key = tuple[str, str]
 
 
 def with_bars(reading: Reading) -> Reading:
-    """The reading with bars and turning pairs in place of circular slots; what is wrong is noted."""
+    """The reading with bars and turning pairs in place of circular slots; problems are noted."""
     guides = {(name, key): guide for _, name, body in reading.bodies for key, guide in body.guides.items()}
     arcs = {k: g for k, g in guides.items() if g.centre is not None or g.r is not None or g.ends is not None}
     if not arcs:

@@ -44,8 +44,7 @@ def scans_of(reading: Reading) -> dict[str, tuple[ReadScan, PlacedPicture | None
 
 
 def background_of(wish: Background, known: Mapping[str, complex], reading: Reading) -> PlacedPicture | None:
-    """The picture that a file asks for, laid by two points whose places (m) are known; None where there is a problem,
-    which is noted."""
+    """The picture of a file, laid by two points of known places (m); None where a problem is noted."""
     where, before = "sheet.background", len(reading.problems)
     picture = _picture(f"{where}.file", wish.file)
     if isinstance(picture, Problem):

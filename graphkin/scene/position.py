@@ -137,8 +137,8 @@ def _guide_of(
 
 
 AngleBetween = tuple[str, Placement, Placement, complex, complex]
-"""A given angle: where it stands in the file ("" of a driver), the link, the one it is counted from, from which
-direction in its axes, and the angle as a unit complex number."""
+"""A given angle: where it stands in the file ("" of a driver), the link, its base, the direction in the base's axes
+from which it counts, and the angle as a unit complex number."""
 
 
 def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:

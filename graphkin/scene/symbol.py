@@ -197,7 +197,7 @@ class Symbol:
 
     @classmethod
     def parse(cls, text: str) -> Symbol:
-        """Read a symbol.  Raises ValueError, saying what is wrong, where it is none."""
+        """Read a symbol.  Raises ValueError with the reason where it is none."""
         elsewhere = _ELSEWHERE.fullmatch(text)
         if elsewhere:
             return replace(cls.parse(elsewhere[1]), at=elsewhere[2])

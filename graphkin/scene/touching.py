@@ -89,11 +89,11 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
     lost = reading.lost_names("links", link, "discs") | (reading.lost_names("frame", "discs") if frame else set())
     if part in outlines or part in lost:
         disc = discs.get((link, part))
-        return (link, part, disc) if disc else None  # what is wrong with it is told already
+        return (link, part, disc) if disc else None  # its problem is noted already
     if not part or part in reading.guides.get(link, ()):
         return link, part, None
     if link in reading.unsure:
-        return None  # what is wrong with its outlines is told already
+        return None  # the problem of its outlines is noted already
     known = [*outlines, *reading.guides.get(link, ())]
     unknown = Phrase("write it in links. discs or links. guides", link=link, other=link)
     reading.say(where, "link has no disc and no guide", did_you_mean(part, known) if known else unknown, link=link,
@@ -329,7 +329,7 @@ def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str
         return None
     pivots = [p for p in link.points if p in reading.places[reading.frame.name]]
     if any(pair.a == follower and pair.b == frame for pair in reading.slides):
-        return None  # what is wrong with its guide is told already
+        return None  # the problem of its guide is noted already
     if len(pivots) != 1 or link.on is not None:
         reading.say(where, "link neither slides on a guide of the", "write on guide or points with a pivot",
                     follower=follower, frame=frame)

@@ -64,9 +64,9 @@ class Extreme:
 
 @dataclass(frozen=True)
 class Traced:
-    """A quantity over the driver's range: its extremes in the order of the motion, and its zeros (driver), of a stretch
-    along which it is zero both ends; ``rests`` tells of each whether it is zero from there to the next; ``unbounded``
-    if it grows without bound towards an end of the range."""
+    """A quantity over the driver's range: its extremes in the order of the motion; its zeros (driver), both ends of a
+    stretch of zeros; ``rests`` tells whether it is zero from each to the next; ``unbounded``, whether it grows without
+    bound towards an end of the range."""
 
     quantity: Symbol
     extremes: tuple[Extreme, ...]
@@ -108,8 +108,8 @@ class Curve:
 
     @cached_property
     def zeros(self) -> Array:
-        """The parameters at which it is zero, in increasing order; of the angle between two links, whatever whole turns
-        one has made against the other, those at which they stand alike; none of a link's own angle."""
+        """The parameters of its zeros, in increasing order; of the angle between two links, where they stand alike
+        after any whole turns; none of a link's own angle."""
         if self.quantity.is_angle_of_link:
             return np.zeros(0)
         if self.quantity.kind != "theta":
@@ -368,7 +368,7 @@ def _beside_ends(reach: DriverRange, curves: Sequence[Traced]) -> list[Traced]:
 
 
 def _constant(axis: CurveParameter, curves: Sequence[Curve]) -> set[Symbol]:
-    """Quantities that do not change; of rates those that are the same wherever they are finite."""
+    """Quantities that do not change; rates, wherever they are finite."""
     constant = {c.quantity for c in curves if c.pieces.is_constant(c.k)}
     low, high = axis.range
     motion = axis.reach.motion(axis.offset(np.linspace(low, high, 34)[1:-1]), extended=False)

@@ -475,9 +475,8 @@ def ranges(reach: DriverRange) -> tuple[Stretch, ...]:
 
 
 def not_searched(reach: DriverRange) -> tuple[str, ...]:
-    """Links whose other assemblies, and so further ranges, are unknown: of larger groups, whose assemblies are known
-    only along their motion, of groups after rolling links, whose place differs after each turn, or of too many groups
-    to try all their assemblies."""
+    """Links whose other assemblies, and so further ranges, are unknown: of larger groups (known only along their
+    motion), of groups after rolling links (their place differs after each turn), or of too many groups to try."""
     if reach.full:
         return ()
     elements, larger = reach.structure.elements, [e.links for e in reach.structure.larger_groups]
