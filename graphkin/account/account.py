@@ -160,7 +160,7 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
 
 
 def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
-    """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
+    """The step that found an equation's first term; 0 for a term drawn in it."""
     of, to = term.symbol.of, term.symbol.to
     by_hand = of is not None and to is not None and of.point == to.point and (
         of.point in sheet.special_points

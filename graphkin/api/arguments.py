@@ -257,7 +257,7 @@ def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase
 def asked_symbols(
     scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None, drawn: bool = True
 ) -> tuple[Symbol, ...]:
-    """The asked symbols: the given ones (or a single one), or the scene's own; loads that are moments are marked.
+    """The asked symbols: the given ones (or a single one), or the scene's own; loads by moments are marked.
 
     Parameters
     ----------

@@ -267,7 +267,7 @@ def drawn_figure(drawn: Drawn, name: str) -> Drawing | None:
 
 
 def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
-    """The asked figures, each once; without names the five of every scene, and those for which the scene has a table.
+    """The asked figures, each once; without names the five of every scene, and those with a table in the scene.
 
     Raises
     ------

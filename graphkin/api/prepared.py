@@ -33,7 +33,7 @@ MOST_VALUE = 1e9
 
 
 def driver_value(value: object) -> float:
-    """A caller's value of a driver.  Raises CallError for a value that is no number."""
+    """A caller's value of a driver.  Raises CallError where it is no number."""
     if isinstance(value, Real) and not isinstance(value, bool) and abs(number := float(value)) <= MOST_VALUE:
         return number
     raise CallError.of("at", "is no driver value of value", "give a finite number below 1e9", value=f"{value!r:.60}")

@@ -181,7 +181,7 @@ class Solved(OfScene, Result):
         return columns_of(shown, self.mechanism, parts_of(shown, None, self._motion_of(shown)))
 
     def _motion_of(self, quantity: Symbol) -> Motion:
-        """The motion of which a quantity is told: its own, or where it is of a named position ("v_C at 10") that one.
+        """The motion of a quantity: its own, or that of its named position ("v_C at 10").
 
         Raises
         ------

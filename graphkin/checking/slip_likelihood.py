@@ -293,7 +293,7 @@ def _kinds(
 
 
 def _digits(text: str) -> str:
-    """The significant digits: numbers with the same digits differ by a power of ten, which is another slip."""
+    """The significant digits: a power of ten, another slip, leaves them."""
     return "".join(filter(str.isdigit, text)).strip("0")
 
 

@@ -65,7 +65,7 @@ class ExpectedValue:
 
 @dataclass(frozen=True)
 class Evidence:
-    """The evidence on a scene at one position, by which values are judged.
+    """The evidence on a scene at one position.
 
     ``exact`` gives the exact value of a symbol, ``elsewhere`` its exact values at other positions with their names,
     ``variants`` those of other problems of a set, ``predicted`` the uncertainty of a pencil drawing.
@@ -397,7 +397,7 @@ def _sort(symbol: Symbol) -> str:
 
 
 def _step(sheet: Sheet, symbol: Symbol) -> float:
-    """The step at which a quantity is known on the drawing; a rate follows the vector from which it is measured."""
+    """The step at which a quantity is known on the drawing; a rate follows its measured vector."""
     if symbol.scope != "motion":
         return 0.0
     if not symbol.is_vector:

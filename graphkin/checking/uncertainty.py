@@ -134,7 +134,7 @@ def _drawn_by(planned: Plan, still: Instrument) -> tuple[Sheet, Drawn]:
 
 
 def _samples(read: Drawn, name: str, tools: Tools, count: int = SAMPLES) -> Sequence[Values]:
-    """The readings of some drawings in which every act errs at random, without drawings that fail."""
+    """The readings of drawings whose acts all err at random, without failed drawings."""
     readings = (read(erring(name, tools, seed)) for seed in range(count))
     return [values for values in readings if values is not None]
 
@@ -259,7 +259,7 @@ def advise(
 def _gain(
     planned: Plan, name: str, tools: Tools, symbol: Symbol, moved: Sequence[complex], figure: str
 ) -> float:
-    """The part of the deviation of first order of a reading that is left with a figure drawn twice as large.
+    """The part of a reading's deviation of first order that is left on a figure of twice the size.
 
     An act that errs by a length in that figure moves the reading half as far then, any other as far as before.  One
     drawing to either side, in which all acts err in proportion to how far they move it, gives the sum of the products

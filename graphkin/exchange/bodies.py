@@ -51,8 +51,7 @@ class Bodies:
     names: dict[str, str] = field(default_factory=dict)
 
     def point(self, name: str, place: complex, key: str = "") -> str:
-        """Add a point under a name that a scene may have, which is returned; ``key`` is its name in the file, where
-        that differs."""
+        """Add a point under a name that a scene may have, and return that; ``key`` is its other name in the file."""
         kept = re.sub(r"[^A-Za-z0-9]", "", name)[:30]
         kept = kept[:1].upper() + kept[1:]
         made = _fresh(kept if kept[:1].isalpha() else f"P{kept}", self.places)

@@ -674,7 +674,7 @@ def balance_of(mechanism: Mechanism, driver: Driver) -> Symbol:
 
 
 def forces_named(mechanism: Mechanism) -> tuple[Symbol, ...]:
-    """Every force and moment of a mechanism that has masses, loads or springs, in the order in which they are told."""
+    """Every force and moment of a mechanism with masses, loads or springs, in the order of their telling."""
     loading = mechanism.loading
     if not loading:
         return ()
