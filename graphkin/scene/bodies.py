@@ -309,7 +309,7 @@ def check_references(reading: Reading) -> None:
 
 
 def _circle_of_references(link: Link) -> list[str]:
-    """Points of ``at`` that are placed from each other in a circle, [] if there is no circle."""
+    """Points of ``at`` placed from each other in a circle, [] without a circle."""
     needs = {point: set(refs) for point, entry in link.at.items()
              if point not in link.points and (refs := references(entry))}
     left = set(needs)
@@ -563,8 +563,8 @@ def with_bars(reading: Reading) -> Reading:
 def _centre(
     reading: Reading, key: Key, arc: Guide, points: Mapping[str, set[str]], given: dict[str, list[float]]
 ) -> str:
-    """The point in the centre of a circular slot, "" where there is none; what is wrong is noted.  For a place a new
-    point is ``given``."""
+    """The point in the centre of a circular slot, "" where there is none; problems are noted.  For a place a new point
+    is ``given``."""
     name, names = key[0], points[key[0]]
     body = "frame" if name == reading.frame.name and name not in reading.links else f"links.{name}"
     where = f"{body}.guides.{key[1]}"
@@ -589,5 +589,5 @@ def _centre(
 
 
 def free_names(taken: Container[str], *first: str) -> Iterator[str]:
-    """Names that are not taken: some first ones, then the first of them with numbers."""
+    """Names not taken: some first ones, then the first of them with numbers."""
     return (name for name in chain(first, (f"{first[0]}{k}" for k in count(1))) if name not in taken)

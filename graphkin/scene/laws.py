@@ -140,7 +140,7 @@ class LiftPiece:
         return Lift(self.low + h * f, h * f1 / wide, h * f2 / wide**2, h * f3 / wide**3)
 
     def places(self, around: int) -> tuple[float, ...]:
-        """Angles (rad) from end to end at which a part is drawn, at least so many to a turn."""
+        """Angles (rad) of a part's drawing from end to end, at least so many to a turn."""
         count = max(CHORDS if self.high != self.low else 2, math.ceil(around * (self.end - self.start) / TURN))
         return tuple(self.start + (self.end - self.start) * k / count for k in range(count + 1))
 

@@ -473,7 +473,7 @@ class Mechanism:
         return Problem(where, "there is no link", did_you_mean(name, self.by_name), name=name)
 
     def no_point(self, where: str, name: str) -> Problem | None:
-        """The problem of a point that no link has and in which nothing touches, None if there is one."""
+        """The problem of a point without a link and a contact, None if it has one."""
         known = (*self.holders, *self.contact_at)
         return None if name in known else Problem(where, "there is no point", did_you_mean(name, known), name=name)
 

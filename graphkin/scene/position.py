@@ -626,7 +626,7 @@ def check_agreement(position: StatedPosition) -> None:
 
 
 def _reach(body: Placement, local: complex) -> float:
-    """The factor by which an error of the places that gave a link's direction grows at ``local``."""
+    """The growth at ``local`` of an error of the places that gave a link's direction."""
     return max(1.0, abs(local) / body.arm)
 
 

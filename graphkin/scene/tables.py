@@ -277,7 +277,7 @@ class Units(FileTable):
 
     @property
     def rates(self) -> Units:
-        """The units in which the lengths in velocities and accelerations are counted."""
+        """The units of the lengths in velocities and accelerations."""
         length: Any = (self.speed or "").removesuffix("/s")
         return replace(self, length=length, speed=None) if length else self
 
@@ -633,7 +633,7 @@ def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
 
 
 def _read_as(raw: OwnTables, path: KeyPath, key: str) -> None:
-    """Move a misspelt entry to the key that is meant; a table is added to the one that is there."""
+    """Move a misspelt entry to the key that is meant; a table is added to the table there."""
     table = value_at(raw, path[:-1])
     value = table[path[-1]]
     moved = {**value, **table[key]} if key in table else value

@@ -78,7 +78,7 @@ def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
 
 
 def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
-    """A side of a contact by its name; None where it does not exist, which is noted here or was before."""
+    """A side of a contact by its name; None where it does not exist, which is noted."""
     link, _, part = ref.partition(".")
     if reading.wrong(reading.no_link(where, link)):
         return None

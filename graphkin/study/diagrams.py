@@ -88,7 +88,7 @@ def diagrams(
 def _force_pages(
     turn: TurnStudy, axis: charts.DriverAxis, quantity: Symbol, language: str
 ) -> dict[str, ChartPage | Drawing]:
-    """A force or a moment over the driver; of a force that is known somewhere the polar diagram too."""
+    """A force or a moment over the driver; the polar diagram too of a force known somewhere."""
     name = charts.figure_name([quantity])
     pages: dict[str, ChartPage | Drawing] = {name: force_page(turn.reach, quantity, language)}
     if quantity.is_vector and np.isfinite(course_of(quantity, turn.reach, axis.motion)).any():

@@ -36,7 +36,7 @@ EQUAL = 1e-11
 NEAR_END = 1e-4
 """Of the range: an extreme this near to an end of the motion is the end itself."""
 LEAST_REACHED = 6
-"""Positions, each twice as far from an end at which links go away as the one before: fewer give no value there."""
+"""Positions, each twice as far from an end at which links go away as the last: fewer give no value there."""
 STEPS_TO_END = 2e-2
 """Of the angle that runs over the range: steps to an end that the solver does not come near enough to."""
 ASIDE = 1e-3

@@ -161,7 +161,7 @@ class PreparedMechanisms:
         return range_from(structure, modes, own_values(scene))
 
     def _alone(self) -> Iterator[tuple[int, PreparedMechanism]]:
-        """The designs that are followed one by one, by their numbers; without those that cannot be assembled."""
+        """The designs followed one by one, by their numbers; without those that cannot be assembled."""
         ready = self.ready
         for k in np.flatnonzero(~self.together).tolist():
             with suppress(Unsolvable, SceneError):

@@ -196,7 +196,7 @@ def parts(said: Wording, language: str, show: Callable[[object], Words] = str) -
 
 @cache
 def _pieces(key: str, language: str) -> tuple[tuple[Words, str | None, str], ...]:
-    """The words of a key, each with the name of the gap behind it, and the symbol of which that gap is the index."""
+    """The words of a key, each with the name of the gap behind it, and the symbol whose index that gap is."""
     pieces: list[tuple[Words, str | None, str]] = []
     before = ""
     for words, gap, of, _ in Formatter().parse(_table(language)[key]):
@@ -271,7 +271,7 @@ def in_all(said: Wording, language: str) -> tuple[RichText, ...]:
 
 
 def _around_neutral(said: Wording, language: str) -> tuple[list[RichText], list[RichText]]:
-    """The words around the neutral parts, and the neutral parts, which are one fewer."""
+    """The words around the neutral parts, and these parts, one fewer."""
     words, neutral = [RichText()], list[RichText]()
     for part in parts(said, language, _as_it_is):
         if isinstance(part, Neutral):
