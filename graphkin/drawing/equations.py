@@ -163,7 +163,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Notation) -> RichText | No
     amount = bound(rule_sum(sheet, only.size, equation.diagram))  # the product of what is written
     if not amount:
         laid_off = (s.mm for s in sheet.steps if s.verb == "lay off" and s.symbol == only.symbol)
-        # what is given is not what a hand has made of it
+        # as given, not as a hand has drawn it
         value = next(laid_off, abs(vector.span)) * scale_of(sheet, equation.diagram)
         amount = bound(f"{number(value, MOST)} {unit_of(sheet, equation.diagram).written}")
     parts.append(amount)

@@ -170,8 +170,8 @@ class Forces:
 
     @cached_property
     def _found(self) -> list[tuple[Array, Array]]:
-        """The unknowns, shape (columns, n), NaN where they are not found, and whether they are found; where loads begin
-        or end exactly at some position then also with these."""
+        """The unknowns, shape (columns, n), NaN where not found, and whether they are found; then also with the loads
+        that begin or end exactly at a position."""
         matrix, inverse, regular = self._equations()
         loads = [[load.value for load in self.acting]]
         if any(load.beside is not None for load in self.acting):

@@ -14,9 +14,9 @@ from graphkin.solver.cams import cam_angle, cam_at, slip_of
 from graphkin.solver.motion import Motion
 
 STANDS = 1e-12
-"""A point stands that is slower than this beside the other of the two, or beside the drivers' rate times the size."""
+"""A point slower than this beside the other point, or beside the drivers' rate times the size, stands."""
 ROUNDED = 1e-12
-"""An angle (rad) between a normal and a way that fall together."""
+"""An angle (rad) between a normal and a direction that fall together."""
 
 
 Measure: TypeAlias = Array | Mapping[str, Array] | str | list[float | None]

@@ -189,7 +189,7 @@ guide's sense, or counter-clockwise."""
 
 GroupWay = Literal["special points", "superposition"]
 """How a group larger than a dyad is drawn in polygons: by special points, or by superposing motions: trial polygons, or
-what is seen from a link held still and that link's motion."""
+the motion seen from a link held still and that link's own."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

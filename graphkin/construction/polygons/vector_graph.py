@@ -84,8 +84,8 @@ class VectorChain:
     """A vector equation to be drawn: paths from known nodes to the node ``end``.
 
     Two ``sides`` have one unknown size each, and cross there.  A single side has one unknown size, in a path to a drawn
-    node, or none; or it leads from one to the other of two parallel legs of a ``link``, whose special point lies at
-    infinity, and gives its rate.
+    node, or none; or it leads between two parallel legs of a ``link``, whose special point lies at infinity, and gives
+    its rate.
 
     Two sides of a ``link`` lead to its special point ``end``, by the legs that give it: from known nodes; or from the
     same point of another moving link, ``base``, with which the link moves there.

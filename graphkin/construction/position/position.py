@@ -353,8 +353,8 @@ def own_position(
     Parameters
     ----------
     of_group : chooses the assembly of a larger group, by trial positions if None
-    beside : the way (rad, m) of each driver from a dead point to a place beside it, where the links are placed as the
-        own position has them, and the group at the dead point by the rule
+    beside : the travel (rad, m) of each driver from a dead point to a place beside it, where the links stand as in the
+        own position, and the group at the dead point by the rule
     """
     structure, of_group = placed.structure, of_group or partial(_group_by_sketch, placed)
     wanted = {n for element in placed.elements for n in element.members}

@@ -346,8 +346,8 @@ LEGEND = ("legend",)
 
 
 def centres_figure(page: FigurePage, centres: Centres) -> Drawing:
-    """Draw all centres of a position on a page of its own; centres whose lines have no room for their names there again
-    on further pages, each in a picture of its own."""
+    """Draw all centres of a position on a page; centres whose lines have no room for their names there again on further
+    pages, each in a picture of its own."""
     sheet, letters = page.sheet, page.letters
     back = background(bare_mechanism(sheet, letters), "touch")
     if sheet.scene.instead_of is not None:  # the bars to centres of curvature, which have centres too

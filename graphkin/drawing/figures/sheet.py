@@ -235,7 +235,7 @@ class Remainder:
 Place: TypeAlias = Literal["own", "spare", "continuation"]
 """Where a room is: that of its kind, below the caption; left by others on the first page; on a further page."""
 Part: TypeAlias = Callable[[FigurePage, Remainder, Box, Place], tuple[Piece, Remainder]]
-"""What of one kind a room holds, and what is left."""
+"""The part of one kind that a room holds, and the rest."""
 
 
 def _into(page: FigurePage, rest: Remainder, room: Box, place: Place) -> tuple[list[Piece], Remainder]:

@@ -357,8 +357,8 @@ BEYOND = 9.0  # mm: how far a direction line runs past the crossing
 
 
 def polygon_piece(here: PolygonOnPage, enlarged: Sequence[Detail] = (), lines: Piece | None = None) -> Piece:
-    """Draw a polygon at its place, of which the ``lines`` may be drawn already; an ``enlarged`` place, which is drawn
-    again in an inset, gets a ring, and its vectors have no names here."""
+    """Draw a polygon at its place, its ``lines`` perhaps drawn already; an ``enlarged`` place, drawn again in an inset,
+    gets a ring, and its vectors have no names here."""
     elsewhere = {v.symbol for detail in enlarged for v in detail.vectors}
     names = tuple(name for symbol, name in here.names.items() if symbol not in elsewhere)
     areas = Piece({"construction": tuple(rings(here, enlarged))})
@@ -366,7 +366,7 @@ def polygon_piece(here: PolygonOnPage, enlarged: Sequence[Detail] = (), lines: P
 
 
 def polygon_lines(here: PolygonOnPage) -> Piece:
-    """A polygon without what its enlarged places change: rings, and names of vectors."""
+    """A polygon without rings and names of vectors, which its enlarged places change."""
     areas, vectors = Piece({"construction": tuple(_images(here))}), Piece({here.diagram: (*_vectors(here),)})
     construction = areas, *trial_marks_in_polygon(here), *_bars(here), *_rays(here)
     return joined((*construction, vectors, points(here)))

@@ -40,7 +40,7 @@ Mark: TypeAlias = complex | Segment
 # Distances of the box from its mark, mm: near ones, and such as want a leader.
 NEAR, FAR = (0.7, 1.5, 2.4, 3.6, 5.0), (6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0)
 FURTHER = (2.4, 3.6, 5.0, 6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.0)
-"""Those at which a leader round what is in its way is looked for."""
+"""Distances tried for a leader round an obstacle."""
 LEADER_LEAST = 2.0  # nearer to its mark a label has no room for a leader
 WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
 SQUARE = len(WAYS), len(WAYS) + 1  # the two ways square to a vector, which follow

@@ -168,12 +168,12 @@ ROUNDING = 1e-6  # of a price
 
 
 def cheapest(places: Iterable[tuple[float, int]], charge: Callable[[list[int]], Floats]) -> int | None:
-    """The cheapest of some places, of those that cost alike but for rounding the first; None where none has room.
+    """The cheapest of some places, the first of equals but for rounding; None where none has room.
 
     Parameters
     ----------
     places : each by its number, with its own price, the cheapest first
-    charge : what some of them cost more for what is in their way, infinite where they have no room
+    charge : the further cost of some of them for obstacles, infinite where they have no room
     """
     best, least, left = None, math.inf, iter(places)
     while lot := [*islice(left, TRIED)]:

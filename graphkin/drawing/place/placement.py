@@ -255,7 +255,7 @@ class Placement:
     def _room(
         self, i: int, some: Sequence[int], offers: Indices, least: float
     ) -> tuple[Indices, dict[int, slice]]:
-        """Places of some labels that only labels to be moved obstruct, the cheapest first; and those of each label.
+        """Places of some labels that only labels to be moved obstruct, the cheapest first; and each label's.
 
         Places too costly for the labels' savings are left out, if all are to cost less than ``least``.
         """

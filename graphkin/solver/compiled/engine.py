@@ -336,8 +336,8 @@ class _Run:
         self.slack.append(LOOKED_UP * np.abs(inputs.get("travel", np.ones(self.n)))[:, None])
 
     def _roll(self, i: int, rolled: RollingRelation) -> None:
-        """How far what a link rolls on has turned or gone since the scene's own position, whole turns as the mode of
-        the element says, and so where the link stands."""
+        """How far the links on which a link rolls have turned or gone since the scene's own position, whole turns by
+        the element's mode, and so where the link stands."""
         program, mode = self.dimensioned.program, np.broadcast_to(self.modes[i], (self.n, 2 * len(rolled.factors)))
         asked: list[Real | Vec] = []
         for (kind, name), _ in rolled.factors:
