@@ -617,10 +617,29 @@ class Rows:
     sign: str = ","
 
 
-def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
-    """A CSV file in UTF-8, or in GB 18030 as Chinese spreadsheets write it; commas, semicolons or tabs part the cells.
+def _decoded(data: bytes) -> str | None:
+    """The text of a file; None where it is in none of the encodings, or as likely in the one as in the other."""
+    for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030", "cp1252"):
+        with suppress(UnicodeDecodeError):
+            text = data.decode(encoding)
+            if encoding == "gb18030" and not re.search(rb"[\x80-\xff]{4}", data):
+                # accents among letters read as rare characters; the usual ones and signs stand first in GB 2312
+                chinese = re.sub(r"(?<=[A-Za-z])[\u3400-\u9fff](?=[A-Za-z])", "", text)
+                usual = sum(b"\xa0" < c.encode("gb2312", "ignore")[:1] < b"\xd8" for c in chinese)
+                rare = sum(c > "\x7f" for c in text) - usual
+                if usual <= rare:
+                    with suppress(UnicodeDecodeError):
+                        western = data.decode("cp1252")
+                        return western if usual < rare else None
+            return None if "\0" in text else text
+    return None
 
-    Raises CallError, also for a file of more bytes than the ``largest``.
+
+def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
+    """A CSV file in UTF-8, or as Chinese (GB 18030) or Western spreadsheets (Windows-1252) write it.
+
+    Commas, semicolons or tabs part the cells, or what a first line ``sep=;`` tells.  Raises CallError, also for a file
+    of more bytes than the ``largest``.
     """
     shown = str(path)[:200]
     try:
@@ -630,15 +649,14 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
         raise CallError.of(shown, "cannot be read", "name a csv file", reason=from_others(error)) from None
     if len(data) > largest:
         raise CallError.of(shown, "is larger than mb", "give fewer rows", largest=largest // 1_000_000)
-    for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
-        with suppress(UnicodeDecodeError):
-            text = data.decode(encoding)
-            break
-    else:
-        raise CallError.of(shown, "is not utf-8 text", "save it as csv")
+    text = _decoded(data)
+    if text is None:
+        raise CallError.of(shown, "is not utf-8 text", "save it as csv utf-8")
     text = text.replace("\r\n", "\n").replace("\r", "\n")
-    first = text.split("\n", 1)[0]
-    sign = max(",;\t", key=first.count)
+    first = next(filter(str.strip, text.split("\n")), "")
+    told = re.fullmatch(r'"?sep=([^"])"?[,;\t]*', first.strip(" "), re.IGNORECASE)
+    sign = told[1] if told else max(",;\t", key=first.count)
+    text = text.replace(first, "", 1) if told else text
     try:
         reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
         lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from graphkin import table as room
 from graphkin.errors import CallError
-from graphkin.table import Column, Table, as_array, parquet_of_csv, table_of, table_of_csv
+from graphkin.table import Column, Rows, Table, as_array, parquet_of_csv, table_of, table_of_csv
 
 NUMBERS = [0.0, -0.0, 1.0, -1.5, 1e-6, 9.9e-7, 1e-5, 1 / 3, 1e10, 9999999999.5, 123456789012.3, 1e22, 5e-324, 3e-17]
 
@@ -180,6 +180,28 @@ def test_a_picture_is_no_table_without_rows(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_bytes(b"\x89PNG\r\n\x1a\n\x00\xff")
     with pytest.raises(CallError, match=r"a\.csv: is not UTF-8 text; save it as CSV"):
         table_of(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize(
+    ("text", "encoding"),
+    [("Müller;Größe", "cp1252"), ("GRÖßE;v (m/s²)", "cp1252"), ("André;30 °", "cp1252"), ("陶喆;朱镕基", "gb18030"),
+     ("Li;ω3", "gb18030"), ("组;36°", "gb18030"), ("Müller;↑", "gb18030")],
+)
+def test_a_table_is_read_in_the_encoding_in_which_its_words_are_likely(tmp_path: Path, text: str, encoding: str) -> None:
+    (tmp_path / "a.csv").write_bytes(f"{text}\n1;2\n".encode(encoding))
+    assert tuple(text.split(";")) == table_of(tmp_path / "a.csv").heads
+
+
+def test_a_table_that_may_be_in_two_encodings_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes("喆;组\n1;2\n".encode("gb18030"))
+    with pytest.raises(CallError, match=r"a\.csv: is not UTF-8 text; save it as CSV UTF-8"):
+        table_of(tmp_path / "a.csv")
+
+
+@pytest.mark.parametrize("first", ["sep=;\r\n", '"sep=;"\n', "\ufeffSEP=;\n"])
+def test_a_first_line_may_tell_the_sign_between_cells(tmp_path: Path, first: str) -> None:
+    (tmp_path / "a.csv").write_bytes(f"{first}a,b,c;d\n1;2\n".encode())
+    assert Rows(("a,b,c", "d"), ((3, ("1", "2")),), ";") == table_of(tmp_path / "a.csv")
 
 
 def test_a_decimal_comma_among_commas_is_told_and_not_cut_off(tmp_path: Path) -> None:
