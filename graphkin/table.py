@@ -675,9 +675,56 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
     return Rows(heads, tuple(lines[1:]), sign)
 
 
-def with_points(sheet: Rows) -> Rows:
-    """A table with decimal points in place of commas, where commas do not part its cells."""
+def with_points(sheet: Rows, path: str | os.PathLike[str]) -> Rows:
+    """A table with decimal points in place of commas, where commas do not part its cells.  Raises CallError for a
+    number that its others leave open."""
     if sheet.sign == ",":
         return sheet
-    rows = ((line, tuple(re.sub(r"(?<=\d),(?=\d)", ".", cell) for cell in cells)) for line, cells in sheet.rows)
+    number = re.compile(r"[+\-]?\d[\d.,]*(?:[eE][+\-]?\d+)?")
+    style = style_of(cell for _, cells in sheet.rows for cell in cells if number.fullmatch(cell))
+    rows, problems = [], []
+    for line, cells in sheet.rows:
+        try:
+            rows.append((line, tuple(
+                pointed(c, style) if number.fullmatch(c) else re.sub(r"(?<=\d),(?=\d)", ".", c) for c in cells)))
+        except ValueError as error:
+            problems.append(Problem(Phrase("line of students and line", students=path, line=line), error.args[0]))
+    if problems:
+        raise CallError(*problems[:20])
     return Rows(sheet.heads, tuple(rows), sheet.sign)
+
+
+_GROUPED = re.compile(r"[+\-]?[1-9]\d{0,2}(?:,\d{3})+|[+\-]?[1-9]\d{0,2}(?:\.\d{3})+")
+
+
+def style_of(texts: Iterable[str]) -> str:
+    """The decimal sign of the numbers in texts, behind the one that parts thousands if a number has both; "" where none
+    tells it, "?" where some have the other.
+
+    >>> style_of(["1.220", "3.936,6"]), style_of(["1.220", "482,7 mm"]), style_of(["1.220"]), style_of(["1,2", "1.2"])
+    ('.,', ',', '', '?')
+    """
+    styles = set[str]()
+    for number in re.findall(r"\d[\d.,]*\d", " ".join(texts)):
+        signs = re.sub(r"\d", "", number)
+        point, aside = signs[-1:], "," if signs.endswith(".") else "."
+        if len(signs) == 1 and not _GROUPED.fullmatch(number):
+            styles.add(point)
+        elif len(signs) > 1:
+            styles.add(aside if {*signs} == {point} else aside + point)
+    return max(styles, key=len, default="") if len({style[-1] for style in styles}) < 2 else "?"
+
+
+def pointed(number: str, style: str) -> str:
+    """A number with a decimal point and without signs that part thousands, of a style as of ``style_of``; a single sign
+    is the decimal one where that is "".  Raises ValueError for 1.220 beside decimal commas: it may be 1220 or 1.22."""
+    sign = "," if number.rfind(",") > number.rfind(".") else "."
+    aside = "." if sign == "," else ","
+    plain, decimal = number.replace(sign, ""), number.replace(sign, ".")
+    if aside in number:
+        return number.replace(aside, "").replace(sign, ".") if number.count(sign) == 1 else number
+    if not _GROUPED.fullmatch(number) or (number.count(sign) == 1 and style in ("", sign, aside + sign)):
+        return decimal
+    if number.count(sign) == 1 and style != sign + aside:
+        raise ValueError(Phrase("cell two ways", cell=number[:40], plain=plain, decimal=decimal))
+    return plain

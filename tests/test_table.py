@@ -187,7 +187,7 @@ def test_a_picture_is_no_table_without_rows(tmp_path: Path) -> None:
     [("Müller;Größe", "cp1252"), ("GRÖßE;v (m/s²)", "cp1252"), ("André;30 °", "cp1252"), ("陶喆;朱镕基", "gb18030"),
      ("Li;ω3", "gb18030"), ("组;36°", "gb18030"), ("Müller;↑", "gb18030")],
 )
-def test_a_table_is_read_in_the_encoding_in_which_its_words_are_likely(tmp_path: Path, text: str, encoding: str) -> None:
+def test_a_table_is_read_in_the_likelier_encoding(tmp_path: Path, text: str, encoding: str) -> None:
     (tmp_path / "a.csv").write_bytes(f"{text}\n1;2\n".encode(encoding))
     assert tuple(text.split(";")) == table_of(tmp_path / "a.csv").heads
 

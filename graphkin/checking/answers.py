@@ -13,7 +13,7 @@ from graphkin.scene.asked import known_symbol, spelling_of
 from graphkin.scene.model import Mechanism, no_force
 from graphkin.scene.spelling import is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Printed, Symbol
-from graphkin.table import Rows, table_of
+from graphkin.table import Rows, pointed, style_of, table_of
 from graphkin.words import Phrase, Wording
 
 Role = Literal["at", "variant", "person", "id", "equations", "drawing"]
@@ -21,7 +21,6 @@ AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
 
 _QUANTITY = re.compile(rf"({'|'.join(KINDS)})_")
 _WAY = re.compile(r"direction|sense|angle|dir\b|arg|方向|转向|角度|指向|∠", re.IGNORECASE)
-_DECIMAL_COMMA = re.compile(r"[^.,]*\d,\d[^.,]*$")  # in a number that can be read in one way alone
 _OTHER_COLUMNS: Mapping[Role, set[str]] = {
     "at": {"at", "position", "driver", "位置", "position no", "φ1", "phi_1"},
     "variant": {"variant", "version", "variante", "变式", "题号", "题目编号", "试题", "no. of problem"},
@@ -141,42 +140,47 @@ def _answers(
     positions = scene.question.positions
     by_name = positions is not None and bool(places) and places <= set(positions.names)
     by_signs = {i for i in directions if any(plain_text(cells[i]) == "+" for _, cells in rows)}  # there - is no blank
-    answers = []
-    for line, cells in rows:
+
+    def read(line: int, cells: Sequence[str], style: str) -> dict[Symbol, Cell]:
+        made: dict[Symbol, Cell] = {}
+        for i, (symbol, unit) in values.items():
+            if sheet.heads[i] not in silent.get(line, ()):
+                columns = [(k, cells[k], unit) for k, (of, unit) in directions.items() if of == symbol and cells[k]]
+                stated = [(text, unit) for k, text, unit in columns if k in by_signs or not is_blank(text)]
+                made[symbol] = _cell(scene, symbol, unit, cells[i], stated, style)
+        return made
+
+    usual = "." if sheet.sign == "," else ""
+    first = [read(line, cells, usual) for line, cells in rows]
+    texts = [  # of single numbers: a comma of two components tells nothing
+        [c[i] for i, (s, _) in values.items() if isinstance(cell := made.get(s), Printed) and len(cell.texts) == 1]
+        for made, (_, c) in zip(first, rows, strict=True)
+    ]
+    whole, answers = style_of(text for row in texts for text in row).strip("?") or usual, []
+    for (line, cells), made, row in zip(rows, first, texts, strict=True):
         notes, at = {role: cells[i] for role, i in roles.items()}, None
+        style = style_of(row) or whole  # who writes 1075,8 means a decimal by 2,819 too
         if text := notes.get("at", ""):
             try:
-                at = text if by_name else _plain_number(text, sheet.sign)
+                at = text if by_name else _plain_number(text, style)
             except ValueError:
                 problems.append(Problem(Phrase("line at", name=name, line=line), "is no driver value", text=text[:40]))
         person = notes.get("person", "") or ("" if at is not None else str(Phrase("line", line=line)))
         marks = {part: mark for part in ("equations", "drawing") if (mark := _mark(notes.get(part, ""))) is not None}
-        def read(sign: str, cells: Sequence[str] = cells, line: int = line) -> dict[Symbol, Cell]:
-            made: dict[Symbol, Cell] = {}
-            for i, (symbol, unit) in values.items():
-                if sheet.heads[i] not in silent.get(line, ()):
-                    columns = [(k, cells[k], unit) for k, (of, unit) in directions.items() if of == symbol and cells[k]]
-                    stated = [(text, unit) for k, text, unit in columns if k in by_signs or not is_blank(text)]
-                    made[symbol] = _cell(scene, symbol, unit, cells[i], stated, sign)
-            return made
-
-        made = read(sheet.sign)
-        texts = {symbol: cells[i] for i, (symbol, _) in values.items()}
-        if any(_DECIMAL_COMMA.match(texts[s]) for s, c in made.items() if isinstance(c, Printed) and len(c.texts) == 1):
-            made = read(";")  # who writes 1075,8 means a decimal by 2,819 too
+        made = made if style == usual else read(line, cells, style)
         answers.append(Answers(person, at, made, variant=notes.get("variant", ""), id=notes.get("id", ""), marks=marks))
     if problems:
         raise CallError(*problems[:50])
     return tuple(answers), tuple(sheet.heads[i] for i in others)
 
 
-def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, beside: Sequence[tuple[str, str]], sign: str) -> Cell:
+def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, beside: Sequence[tuple[str, str]], style: str) -> Cell:
     """A cell with its direction or sense from other columns, each with the unit of its head."""
     if is_blank(text):
         return None
     try:
-        way = next((read_way(cell, symbol, of_head) for cell, of_head in beside), None)
-        return read_cell(text, symbol, scene.units, unit, sign, way)
+        way = next((read_way(stated, symbol, of_head) for stated, of_head in beside), None)
+        return read_cell(text, symbol, scene.units, unit, style, way)
     except ValueError as error:
         return text, error.args[0]
 
@@ -225,14 +229,13 @@ def _unknown(scene: Mechanism, text: str, where: Wording) -> list[Problem]:
 
 def _mark(text: str) -> float | None:
     try:
-        return _plain_number(text, ";") if text else None
+        return _plain_number(text, "") if text else None
     except ValueError:
         return None
 
 
-def _plain_number(text: str, sign: str) -> float:
-    plain = plain_text(text).rstrip("°").strip()
-    return float(plain if sign == "," else plain.replace(",", "."))
+def _plain_number(text: str, style: str) -> float:
+    return float(pointed(plain_text(text).rstrip("°").strip(), style))
 
 
 def _text(value: object) -> str:

@@ -19,6 +19,7 @@ from functools import cached_property
 from graphkin.plane import added_up
 from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Way, centre_links, forms_of_names, stated
 from graphkin.scene.tables import FORCES, LENGTHS, Units
+from graphkin.table import pointed
 from graphkin.words import LANGUAGES, Phrase, area
 
 _GREEK = {"ω": "omega", "Ω": "omega", "α": "alpha", "ε": "alpha", "ϵ": "alpha", "θ": "theta", "φ": "theta",
@@ -451,8 +452,6 @@ def _from_axis(match: re.Match[str]) -> tuple[float, float]:
 
 
 _NOTHING = _said("nothing", "[-?/—]?|--")
-_DECIMAL = re.compile(r"[+\-]?\d+,\d+(?:[eE][+\-]?\d+)?")
-_THOUSANDS = re.compile(r"[+\-]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d+)?")
 _ABOUT, _ASIDE = _said("about", "[≈~≃≅∼]"), _said("beside a value")
 _RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)(?:\s*\})?")
 # an inch behind a number or a force, which is no "in the sense of"
@@ -485,7 +484,7 @@ def is_blank(text: str) -> bool:
 
 
 def read_cell(
-    text: str, symbol: Symbol, units: Units, unit: str = "", sign: str = ",", way: Way | None = None
+    text: str, symbol: Symbol, units: Units, unit: str = "", style: str = ".", way: Way | None = None
 ) -> Printed:
     """The value that a cell states.
 
@@ -493,14 +492,14 @@ def read_cell(
     ----------
     units : of the scene
     unit : of the column's head; the scene's unit if it has none; a unit in the cell goes before both
-    sign : the sign between the table's cells; where it is a comma, a comma in a number may part thousands
+    style : of the numbers beside it, as of ``style_of``
     way : the direction from a column of directions
 
     Raises
     ------
     ValueError : a text that is no value of the quantity; its argument is the reason as a phrase
 
-    >>> read_cell("482,7 mm/s", Symbol.parse("v_B"), Units(), sign=";").value
+    >>> read_cell("482,7 mm/s", Symbol.parse("v_B"), Units(), style=",").value
     0.4827
     >>> read_cell("≈2.82 cw", Symbol.parse("omega_3"), Units()).value
     -2.82
@@ -530,16 +529,16 @@ def read_cell(
         key = "cell no unit" if is_unit(said, units) else "cell no words"
         measure = Phrase(f"measure {symbol.measure.name}")
         raise ValueError(Phrase(key, cell=text.strip()[:60], unit=said[:40], measure=measure))
-    pointed = [_pointed(n, sign) for n in numbers]
+    written = [pointed(n, style) for n in numbers]
     if way.sense:
-        pointed = [("-" if way.sense < 0 else "") + n.lstrip("+-") for n in pointed]
-    if way.angle is not None and len(pointed) == 1 and pointed[0].startswith("-"):
-        pointed, way = [pointed[0][1:]], replace(way, angle=way.angle + math.pi)
+        written = [("-" if way.sense < 0 else "") + n.lstrip("+-") for n in written]
+    if way.angle is not None and len(written) == 1 and written[0].startswith("-"):
+        written, way = [written[0][1:]], replace(way, angle=way.angle + math.pi)
     shown = text.strip()
     if unit and not left and factor != symbol.unit(units).si:
         shown += f" ({unit})" if any(map(str.isalpha, shown)) else f" {unit}"
-    made = replace(stated(symbol, pointed, units, factor), shown=shown)
-    if len(pointed) > 1 or not symbol.is_vector:
+    made = replace(stated(symbol, written, units, factor), shown=shown)
+    if len(written) > 1 or not symbol.is_vector:
         return made
     return replace(made, way=way)
 
@@ -562,16 +561,3 @@ def _joined(text: str, symbol: Symbol) -> str:
     if symbol.is_vector:
         raise ValueError(Phrase("cell two components", cell=text[:40], number=whole))
     return text[: match.start()] + whole + text[match.end() :]
-
-
-def _pointed(number: str, sign: str) -> str:
-    if "," in number and "." in number:  # the last one is the decimal sign
-        aside, point = sorted(",.", key=number.rfind)
-        if number.count(point) == 1:
-            return number.replace(aside, "").replace(point, ".")
-    if sign == "," and _THOUSANDS.fullmatch(number):
-        if number.count(",") == 1 and "." not in number:
-            plain, decimal = number.replace(",", ""), number.replace(",", ".")
-            raise ValueError(Phrase("cell two ways", cell=number[:40], plain=plain, decimal=decimal))
-        return number.replace(",", "")
-    return number.replace(",", ".") if _DECIMAL.fullmatch(number) else number

@@ -167,7 +167,7 @@ def _finite(value: float) -> float:
 
 def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[tuple[Value, ...], ...]]:
     """Keys and rows of a CSV file of designs.  Raises CallError, naming the row."""
-    shown, table = path_of(path), with_points(table_of(path, MOST_BYTES))
+    shown, table = path_of(path), with_points(table_of(path, MOST_BYTES), path)
     if len(table.rows) > MOST_ROWS:
         raise CallError.of(str(shown), "holds more than designs", most=MOST_ROWS)
     keys = table.heads

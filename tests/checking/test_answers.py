@@ -138,7 +138,7 @@ def test_a_row_that_is_not_reached_is_told_as_it_was_written():
     [("1 220.5", 1220.5), ("12 345.6 rad/s", 12345.6), ("1 220", 1220.0), ("1'220.5", 1220.5), ("5.19 1/s", 5.19)],
 )
 def test_thousands_parted_by_spaces_are_one_number_with_its_decimals(text, value):
-    assert value == read_cell(text, Symbol.parse("omega_3"), Units(), "", ",", None).value
+    assert value == read_cell(text, Symbol.parse("omega_3"), Units(), "", ".", None).value
 
 
 @pytest.mark.parametrize(

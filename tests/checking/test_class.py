@@ -100,7 +100,7 @@ def test_two_components_are_read_as_people_write_them(text):
 
 @pytest.mark.parametrize(("text", "value"), [("1'220", 1.22), ("1.220,5", 1.2205), ("1,220.5", 1.2205)])
 def test_thousands_are_read_as_people_part_them(text, value):
-    assert pytest.approx(value) == read_cell(text, Symbol.parse("v_D"), Units(), sign=";").value
+    assert pytest.approx(value) == read_cell(text, Symbol.parse("v_D"), Units(), style="").value
 
 
 @pytest.mark.parametrize("text", ["many", "5 apples", "1 2 3", "nan", "4.8 rad/s", "1 220", "1 220.5"])
@@ -159,10 +159,20 @@ def test_newtons_are_not_north():
         ({"omega_3": "-2,819", "v_B@3": "1075,8 mm/s"}, [-2.819, 1075.8]),
         ({"omega_3": "-2,819", "v_B@3": "1075.8"}, [None, 1075.8]),
         ({"omega_3": "-2,819", "v_B@3": "1,075,800"}, [None, 1075800.0]),
+        ({"omega_3": "-2,819", "v_B@3": "1,075.8"}, [-2819.0, 1075.8]),
+        ({"v_D": "1.220", "v_B@3": "3.936,6"}, [1220.0, 3936.6]),
+        ({"v_D": "1.220", "v_B@3": "1075,8"}, [None, 1075.8]),
+        ({"v_D": "1.220.500", "v_B@3": "1.220"}, [1220500.0, None]),
     ],
 )
-def test_a_comma_is_read_as_the_other_numbers_of_its_row_have_it(values, read):
+def test_a_comma_or_a_point_is_read_as_the_other_numbers_of_its_row_have_it(values, read):
     assert read == [row["printed"] for row in graphkin.audit(SIXBAR, answers={"Ann": values}).data["values"]]
+
+
+@pytest.mark.parametrize(("other", "read"), [("3.936,6", 1220.0), ("482,7", None), ("482.7", 1.22)])
+def test_a_row_without_a_style_of_its_own_has_the_one_of_its_table(tmp_path, other, read):
+    (tmp_path / "a.csv").write_text(f"name;v_D\nLi;1.220\nWu;{other}\n")
+    assert read == graphkin.audit(SIXBAR, answers=tmp_path / "a.csv").data["values"][0]["printed"]
 
 
 def test_a_zero_component_is_zero_to_the_accuracy_of_the_other():

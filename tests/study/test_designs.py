@@ -105,6 +105,15 @@ def test_designs_are_read_as_spreadsheets_write_them(tmp_path: Path) -> None:
     assert (("links.1.length", "title"), ((40.5, "四杆"), (50.0, "四杆"))) == read_designs(tmp_path / "d.csv")
 
 
+@pytest.mark.parametrize(("other", "read"), [("1.250,5", ((1220.0,), (1250.5,))), ("40.5", ((1.22,), (40.5,)))])
+def test_thousands_of_designs_are_parted_as_the_file_shows(tmp_path: Path, other: str, read: object) -> None:
+    (tmp_path / "d.csv").write_text(f"sep=;\nlinks.1.length\n1.220\n{other}\n")
+    assert read == read_designs(tmp_path / "d.csv")[1]
+    (tmp_path / "d.csv").write_text("sep=;\nlinks.1.length\n1.220\n40,5\n")
+    with pytest.raises(CallError, match=r"d\.csv, line 3: \"1.220\" may be 1220 or 1.220"):
+        read_designs(tmp_path / "d.csv")
+
+
 def test_a_key_that_stands_twice_is_told_at_the_first_row_in_any_language(tmp_path: Path) -> None:
     (tmp_path / "designs.csv").write_text("links.1.length,links.1.length\n100,110\n")
     with pytest.raises(CallError) as refusal:

@@ -260,7 +260,7 @@ def _reach(scene: Mechanism) -> tuple[float, float] | None:
 
 def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, dict[int, str], list[int]]:
     """A table of data, its data columns and the others (`columns_of`).  Raises CallError if none is a datum."""
-    table = with_points(table_of(rows))
+    table = with_points(table_of(rows), rows)
     data, others = columns_of(source, table.heads)
     if not data:
         raise CallError.of(str(rows), "no column is a datum of the scene",
