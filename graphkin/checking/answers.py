@@ -174,13 +174,18 @@ def _answers(
     return tuple(answers), tuple(sheet.heads[i] for i in others)
 
 
-def _cell(scene: Mechanism, symbol: Symbol, unit: str, text: str, beside: Sequence[tuple[str, str]], style: str) -> Cell:
+def _cell(
+    scene: Mechanism, symbol: Symbol, unit: str, text: str, beside: Sequence[tuple[str, str]], style: str
+) -> Cell:
     """A cell with its direction or sense from other columns, each with the unit of its head."""
     if is_blank(text):
         return None
     try:
         way = next((read_way(stated, symbol, of_head) for stated, of_head in beside), None)
-        return read_cell(text, symbol, scene.units, unit, style, way)
+        cell = read_cell(text, symbol, scene.units, unit, style, way)
+        if any(not line.two and scene.slide_on(line.one) is None for line in cell.way.lines):
+            raise ValueError(Phrase("cell no direction", cell=text[:40]))
+        return cell
     except ValueError as error:
         return text, error.args[0]
 

@@ -121,7 +121,11 @@ def _near(deviation: float, room: float, either: bool) -> bool:
 
 def _angle_of(case: Evidence, line: Line) -> float | None:
     """The angle of a line (rad), None where its points are not drawn."""
-    first, second = (case.sheet.points.get(PointRef(name)) for name in (line.one, line.two))
+    sheet = case.sheet
+    if not line.two:
+        guide = sheet.scene.slide_on(line.one)
+        return None if guide is None else cmath.phase(guide.along(sheet.poses) * (1j if line.square else 1.0))
+    first, second = (sheet.points.get(PointRef(name)) for name in (line.one, line.two))
     if first is None or second is None or first == second:
         return None
     return cmath.phase((second - first) * (1j if line.square else 1.0))

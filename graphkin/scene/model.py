@@ -457,6 +457,11 @@ class Mechanism:
         """The sliding pair in which a link slides on the frame; None where it does not."""
         return next((pair for pair in self.slidings if pair.links == (link, self.frame.name)), None)
 
+    def slide_on(self, guide: str) -> Pair | None:
+        """The first slide on a guide, by its name in a figure, where the frame's own axis is x."""
+        name = f"x{self.frame.name}" if guide == "x" else guide
+        return next((pair for pair in self.slides if pair.guide_name == name), None)
+
     def sliding(self, key: str) -> Pair:
         """The sliding pair of that name."""
         return next(pair for pair in self.slidings if pair.key == key)

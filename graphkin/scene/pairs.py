@@ -119,6 +119,11 @@ class Pair:
         """The other link of the pair."""
         return self.b if link == self.a else self.a
 
+    @property
+    def guide_name(self) -> str:
+        """The name of its guide; of a link's own axis x and the link."""
+        return self.guide.name or f"x{self.b}"
+
     def along(self, poses: Poses) -> complex:
         """The unit vector along its guide, in the guide's sense, with the links in these poses."""
         return poses[self.b].axis * self.guide.direction

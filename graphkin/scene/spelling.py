@@ -291,6 +291,7 @@ _LINE = re.compile(
     r"|∥|//|(?i:\bparallel\s*to\b|\balong\b)|平行于?|沿)\s*(?:(?i:the|bar|link|line)\b\s*)*杆?"
     r"(?P<one>[A-Z]\d*)(?P<two>[A-Z]\d*)(?![A-Za-z0-9])\s*(?:(?i:bar|link|line)\b|杆)?(?:方向)?"
 )
+_GUIDE = re.compile(r"(?:(?P<square>⊥|⟂)|∥|//)\s*(?P<one>[A-Za-z]\w*)(?![\w-])")
 _POINT = r"(?P<{}>[A-Z]\d*)(?![A-Za-z0-9])"
 _FROM_TO = re.compile(
     rf"(?:(?i:\bfrom\b)|[由从自])?\s*(?:点\s*)?{_POINT.format('one')}\s*(?:点\s*)?(?:(?i:\bto(?:wards?)?\b)|→|指向|到|向)"
@@ -346,6 +347,9 @@ def _lines(text: str, symbol: Symbol) -> tuple[tuple[Line, ...], str]:
     lines: list[Line] = []
     while match := _LINE.search(text):
         lines.append(Line(match["one"], match["two"], square=bool(match["square"])))
+        text = _without(text, match)
+    while match := _GUIDE.search(text):
+        lines.append(Line(match["one"].replace("_", ""), square=bool(match["square"])))
         text = _without(text, match)
     while match := _FROM_TO.search(text):
         lines.append(Line(match["one"], match["two"], directed=True))

@@ -403,11 +403,11 @@ SMALLEST = -300  # power of ten of a last digit that a double still holds
 
 @dataclass(frozen=True)
 class Line:
-    """A line through two points, or ``square`` to it, along which a vector is said to lie; ``directed``: from the first
-    to the second."""
+    """A line through two points, or along a guide (``two`` is ""), or ``square`` to it, along which a vector is said to
+    lie; ``directed``: from the first to the second."""
 
     one: str
-    two: str
+    two: str = ""
     square: bool = False
     directed: bool = False
 

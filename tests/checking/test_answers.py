@@ -171,6 +171,15 @@ def test_minutes_of_arc_are_as_fine_as_they_are_written():
     assert pytest.approx((-57.9, 0.5 / 60)) == (math.degrees(read.value), math.degrees(read.rounding))
 
 
+@pytest.mark.parametrize(
+    ("cell", "verdict"),
+    [("482.7 ∥h", "right"), ("482.7 ⊥h", "wrong"), ("482.7 // h", "right"), ("482.7 ∥g", "not readable")],
+)
+def test_a_direction_along_a_guide_is_read_as_the_sheets_print_it(cell, verdict):
+    (judged,) = graphkin.audit(SIXBAR, answers={"Li": {"v_D": cell}}).data["values"]
+    assert verdict == judged["verdict"]
+
+
 def test_a_column_of_directions_is_in_the_unit_of_its_head(tmp_path):
     (right,) = (v["exact"] for v in graphkin.audit(FOUR_BAR, answers={"Li": {"v_C": 1}}).data["values"])
     way = graphkin.solve(FOUR_BAR).data["positions"][0]["points"]["C@3"]["velocity"]

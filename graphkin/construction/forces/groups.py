@@ -345,7 +345,7 @@ def _across(pair: Pair) -> Direction:
 
 def _along(slide: Pair) -> Direction:
     """The direction of a guide, as it is written."""
-    return Direction("along", (slide.guide.name or f"x{slide.b}",))
+    return Direction("along", (slide.guide_name,))
 
 
 def _slide_found(

@@ -224,7 +224,7 @@ class Polygons:
                 return others[0][1], pin
         if len(on) > 1:
             return min(on)[1], max(on)[1]
-        return (slide.guide.name or f"x{slide.b}",)
+        return (slide.guide_name,)
 
     def fixed(self, ref: PointRef) -> bool:
         """Whether a node is a point of the frame."""

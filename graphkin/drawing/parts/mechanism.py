@@ -246,7 +246,7 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
     }
     written |= {guide.name for guide in here.scene.frame.guides.values()}  # the given data name them
     for b in here.sliders:
-        name = b.slide.guide.name or f"x{b.slide.b}"
+        name = b.slide.guide_name
         if name in written:
             written.discard(name)
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
