@@ -213,7 +213,7 @@ def task(lesson: Lesson) -> Iterator[Paragraph]:
 
 
 def coincident_points(lesson: Lesson) -> Iterator[Paragraph]:
-    """The meaning of the asked points that are told apart by their link, ``B_3``."""
+    """The meaning of the asked points that are told apart by their link, ``B_3``, and of the + of asked forces."""
     ends = (ref for symbol in lesson.questions for ref in (symbol.of, symbol.to) if ref is not None)
     points = dict.fromkeys(
         Phrase("coincident point", point=PointRef(ref.point, link), link=link, place=PointNames((ref.point,)))
@@ -221,6 +221,8 @@ def coincident_points(lesson: Lesson) -> Iterator[Paragraph]:
     )
     if points:
         yield Paragraph(lesson.sentence(joined("list comma of two", points)))
+    if any(symbol.plus for symbol in lesson.questions):
+        yield Paragraph(lesson.said("plus is with load"))
 
 
 def given(lesson: Lesson) -> Iterator[Paragraph]:

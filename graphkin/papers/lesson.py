@@ -167,7 +167,7 @@ class Lesson:
         links, not of those that stand in for a contact or a cam alone."""
         have = {row.symbol for row in self.report.rows}
         if self.sheet.asked:
-            return tuple(s for s in self.sheet.asked if s in have)
+            return tuple(symbol for asked in self.sheet.asked for symbol in asked.both if symbol in have)
         symbols = (row.symbol for row in self.report.rows if self._is_result(row.symbol) and row.symbol.to is None)
         whole = self.sheet.scene.whole
         return tuple(

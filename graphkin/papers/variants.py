@@ -187,7 +187,9 @@ def examined(
             asked = (*asked, *_of_larger_groups(scene, asked))
         planned = paper_plan(scene, None, asked, share=False)
         sheet = execute(planned)
-        answers = tuple(_answers(scene, motion, sheet, asked))
+        there = {reading.symbol for reading in read_off(sheet)}
+        each = tuple(one for s in asked for one in s.both if not one.plus or one in there)
+        answers = tuple(_answers(scene, motion, sheet, each))
         idle = {s for s, value in answers if not value and s.scope == "force"}  # what a mechanism never loads
         remarks += _remarks(sheet, () if chosen else tuple(s for s in asked if s not in idle), bounds.crossing)
         if remarks and strict:

@@ -12,6 +12,8 @@ import pytest
 import graphkin
 import tests.papers
 from graphkin.account.forces import force_stages
+from graphkin.papers.documents import task
+from graphkin.papers.variants import examined
 from tests.construction.test_forces import CRANK_WRITTEN_LAST, CROSSING, DRIVEN_IN_A_SLOT
 
 ENGINE = "engine-gas-force"
@@ -157,3 +159,14 @@ def test_the_polygon_of_a_pin_alone_is_told_on_a_paper(tmp_path):
     for said in ("the pin at E alone / 销 E", "The polygon of the pin at E alone closes with FR53.",
                  "由销 E 的力多边形封闭，求得 FR53。", "FR53 = 33.51 mm × 0.5 N/mm = 16.755 N"):
         assert said in text
+
+
+def test_what_is_asked_where_a_load_begins_is_asked_without_and_with_it():
+    engine = graphkin.read("engine-gas-force").to_dict() | {"find": ["M_2"]}
+    engine["loads"]["gas"]["when"] = {"driver": [30, 180]}
+    del engine["flywheel"]
+    handout = graphkin.handout(graphkin.read(engine))
+    assert ["M_2", "M_2+"] == [row.symbol for row in handout.key if row.asked]
+    assert "A value with + is with the load" in str(list(task(handout.lesson)))
+    variant = examined(engine, None, "1", strict=False)
+    assert ["M_2", "M_2+"] == [answer.symbol for answer in variant.answers]
