@@ -18,6 +18,7 @@ from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross, degrees, direction, dot
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene import parsed
+from graphkin.scene.scene_tables import LARGEST
 from graphkin.scene.tables import xy
 from graphkin.solver import Motion
 from graphkin.words import Phrase
@@ -57,13 +58,12 @@ def draft(made: Tables) -> OwnTables:
     _, fixed = frame_in(made)
     spots = {**table_in(made, "sketch"), **table_in(made, "drawn"), **table_in(made, "seen"), **fixed}
     points = {str(p): list(z) for p, z in spots.items() if _place(z)}
-    per = math.degrees(1.0) if table_in(made, "units").get("angle") == "rad" else 1.0
     for name, z in fixed.items():
         if isinstance(z, Mapping) and str(z.get("from")) in points and _place([z.get("r"), z.get("angle", 0.0)]):
-            start, ahead = complex(*points[z["from"]]), z.get("toward")
-            axis = 1.0 if ahead is None else complex(*points.get(str(ahead), points[z["from"]])) - start
+            start, ahead = points[str(z["from"])], z.get("toward")
+            axis = 1.0 if ahead is None else complex(*points.get(str(ahead), start)) - complex(*start)
             if axis:
-                points[name] = xy(start + z["r"] * axis / abs(axis) * direction(per * z.get("angle", 0.0)))
+                points[name] = xy(complex(*start) + z["r"] * axis / abs(axis) * direction(z.get("angle", 0.0)))
     links = {}
     for name, link in table_in(made, "links").items():
         if isinstance(link, Mapping):
@@ -75,14 +75,16 @@ def draft(made: Tables) -> OwnTables:
         through = points.get(through) if isinstance(through, str) else through
         if _place(through):
             turn = guide.get("angle")
-            guides.append({"through": through, "angle": per * turn if isinstance(turn, int | float) else 0.0})
+            guides.append({"through": through, "angle": turn if _number_of_scene(turn) else 0.0})
     return {"points": points, "fixed": [p for p in fixed if p in points], "links": links, "guides": guides}
 
 
 def _place(value: object) -> bool:
-    if not isinstance(value, list) or len(value) != 2:
-        return False
-    return all(isinstance(x, int | float) and math.isfinite(x) for x in value)
+    return isinstance(value, list) and len(value) == 2 and all(map(_number_of_scene, value))
+
+
+def _number_of_scene(value: object) -> bool:
+    return isinstance(value, int | float) and abs(value) <= LARGEST
 
 
 def _free_letter(made: Tables, changes: Iterable[str] = ()) -> str:

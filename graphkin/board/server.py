@@ -8,7 +8,9 @@ origin, are refused.  The page may load nothing from elsewhere.
 from __future__ import annotations
 
 import json
+import logging
 import secrets
+import threading
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
@@ -153,7 +155,8 @@ def _answered(shelf: Shelf, text: str) -> str:
     try:
         return json.dumps(answer(shelf, message), ensure_ascii=False, allow_nan=False, default=str)
     except Exception as error:
-        traceback.print_exc()
+        if threading.main_thread().is_alive():  # after Ctrl-C nobody waits for the answer
+            traceback.print_exc()
         number = message.get("id") if isinstance(message, dict) else None
         said = Phrase("this could not be answered the terminal says", name=type(error).__name__)
         text = say(said, language_of(message))
@@ -199,15 +202,19 @@ def serve(
 async def _run(app: Starlette, listening: socket.socket, ready: Callable[[], None]) -> None:
     import uvicorn
 
-    config = uvicorn.Config(  # an answer that is cut off by Ctrl-C is no error
-        app, log_level="critical", access_log=False, ws="websockets-sansio", ws_max_size=LARGEST_MESSAGE,
-        lifespan="off", server_header=False, timeout_graceful_shutdown=1, ws_per_message_deflate=False,
+    config = uvicorn.Config(
+        app, log_level="error", access_log=False, ws="websockets-sansio", ws_max_size=LARGEST_MESSAGE, lifespan="off",
+        server_header=False, timeout_graceful_shutdown=1, ws_per_message_deflate=False,
     )
 
     class Server(uvicorn.Server):
         async def startup(self, sockets: list[socket.socket] | None = None) -> None:
             await super().startup(sockets)
             ready()
+
+        async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+            logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)  # an answer that Ctrl-C cuts off is no error
+            await super().shutdown(sockets)
 
     await Server(config).serve(sockets=[listening])
 

@@ -320,18 +320,26 @@ def test_what_no_name_or_number_of_json_can_be_is_told_as_any_other_error(wrong:
     json.dumps(found, allow_nan=False)
 
 
+@pytest.mark.parametrize("wrong", ["inf", "nan", "1" + "0" * 400])
+def test_an_unfinished_mechanism_is_shown_without_numbers_that_no_scene_has(wrong: str) -> None:
+    text = f"[frame]\npoints.A = [0, {wrong}]\nguides.h = {{ through = [1, 2], angle = {wrong} }}"
+    found = answer(Shelf(), {"do": "show", "text": text})
+    json.dumps(found, allow_nan=False)
+    assert ({}, [{"through": [1, 2], "angle": 0.0}]) == (found["draft"]["points"], found["draft"]["guides"])
+
+
 def test_a_pivot_of_an_unfinished_mechanism_lies_toward_the_point_that_it_names() -> None:
     text = """
-    [units]
-    angle = "rad"
     [frame.points]
     A = [0, 0]
     B = [0, 10]
     C = { from = "A", r = 5, toward = "B" }
-    D = { from = "A", r = 2, angle = 1.5707963267948966 }
+    D = { from = "A", r = 2, toward = "B", angle = -90 }
+    E = { from = "A", r = 2, toward = "F" }
     """
     points = answer(Shelf(), {"do": "show", "text": text})["draft"]["points"]
-    assert (pytest.approx([0.0, 5.0]), pytest.approx([0.0, 2.0])) == (points["C"], points["D"])
+    assert (pytest.approx([0.0, 5.0]), pytest.approx([2.0, 0.0])) == (points["C"], points["D"])
+    assert "E" not in points
 
 
 def test_a_bar_between_two_new_points_names_them_apart() -> None:

@@ -8,12 +8,13 @@ import json
 import logging
 import random
 import socket
+import threading
 from concurrent.futures import ThreadPoolExecutor
 from urllib.parse import urlsplit
 
 import pytest
 
-from graphkin.board.server import LARGEST_MESSAGE, STATIC, Address, _run, application
+from graphkin.board.server import _FILES, LARGEST_MESSAGE, STATIC, Address, _answered, _run, application
 from graphkin.board.shelf import Shelf
 from graphkin.scene.scene import library_text
 from tests.board.served import served, talking
@@ -175,16 +176,30 @@ def test_a_port_that_is_taken_is_said(url: str, tmp_path) -> None:
     assert "cannot be used" in found.stderr
 
 
-def test_a_server_that_is_interrupted_says_nothing_of_answers_that_it_cuts_off() -> None:
-    def interrupted() -> None:
-        raise EOFError
+def test_a_server_tells_its_defects_but_nothing_of_answers_that_its_end_cuts_off(monkeypatch, capsys) -> None:
+    def ask() -> None:
+        call = http.client.HTTPConnection("127.0.0.1", address.port)
+        call.request("GET", f"/{address.secret}/board.css")
+        call.getresponse()
 
+    monkeypatch.setitem(_FILES, "board.css", (STATIC / "nowhere", "text/css"))
+    monkeypatch.setattr("uvicorn.Server.main_loop", lambda _: asyncio.to_thread(ask))
     # the loop of a browser runs in this thread
     with socket.create_server(("127.0.0.1", 0)) as listening, ThreadPoolExecutor(1) as alone:
-        running = alone.submit(asyncio.run, _run(application(Shelf(), Address(0)), listening, interrupted))
-        with pytest.raises(EOFError):
-            running.result()
+        address = Address(listening.getsockname()[1])
+        alone.submit(asyncio.run, _run(application(Shelf(), address), listening, lambda: None)).result()
+    assert "FileNotFoundError" in capsys.readouterr().err
     assert not logging.getLogger("uvicorn.error").isEnabledFor(logging.ERROR)
+
+
+def test_a_defect_is_told_on_the_page_and_in_the_terminal_but_not_after_the_end(monkeypatch, capsys) -> None:
+    monkeypatch.setattr("graphkin.board.server.answer", lambda *_: 1 / 0)
+    told = json.loads(_answered(Shelf(), '{"id": 3}'))
+    assert (3, False, "Defect") == (told["id"], told["ok"], told["kind"])
+    assert "ZeroDivisionError" in capsys.readouterr().err
+    monkeypatch.setattr(threading, "main_thread", threading.Thread)  # which does not run
+    _answered(Shelf(), '{"id": 3}')
+    assert "" == capsys.readouterr().err
 
 
 def test_the_page_speaks_no_unknown_language() -> None:
