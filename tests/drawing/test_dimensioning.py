@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from graphkin import draw
+from graphkin import draw, read
 from graphkin.drawing import Box, Text
 from graphkin.drawing.ink.primitives import Arc, Group, Line, walk
 from graphkin.drawing.ink.strokes import HATCHING
@@ -124,6 +124,14 @@ def test_a_small_angle_has_an_arc_that_is_seen_or_is_written_at_its_pivot(degree
     assert said in words(figure)
     drawn = next(group for group in walk(figure.children) if isinstance(group, Group) and group.id == LENGTHS)
     assert [] == [arc for arc in drawn.children if isinstance(arc, Arc) and abs(arc.end - arc.start) * arc.radius < 0.5]
+
+
+def test_a_small_angle_of_a_link_or_a_guide_has_its_number_where_no_arc_is_seen() -> None:
+    scene = four_bar(50, 120, 90, 130)
+    scene["links"]["2"]["at"] = {"E": [60 * math.cos(math.radians(1)), 60 * math.sin(math.radians(1))]}
+    slanted = read("slider-crank-offset").replace("frame.guides.h.angle", 1.5)
+    assert "1°" in words(draw(scene, at=55, figures=["sheet"]).figures["sheet"])
+    assert "1.5°" in words(draw(slanted, at=130, figures=["sheet"]).figures["sheet"])
 
 
 def test_an_angle_beyond_180_degrees_is_dimensioned_as_it_is_given():

@@ -164,7 +164,7 @@ def _turned(
 ) -> Parts | None:
     """A turn (rad) about a place on the page from one of some directions."""
     runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
-    choices = product(_seen(radii, turn) or radii[-1:], starts)
+    choices = product(_seen(radii, turn) or radii[::-1], starts)  # of one seen on none the number at least
     drawn = (angle_dimension(at, radius, start, start + turn, runs) for radius, start in choices)
     return room.take(drawn, 0, ends_on_line=True)
 
@@ -389,7 +389,7 @@ def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:
         level = math.copysign(1.0, along.real)
         start = 0.0 if level > 0 else math.pi
         corner = on_page(slider.at + (GUIDE_LENGTH / 2 + 0.5) * along)
-        for radius in _seen(RADII, math.radians(angle)) or RADII[-1:]:
+        for radius in _seen(RADII, math.radians(angle)) or RADII[::-1]:
             further = radius + OVERRUN
             choices.append((
                 Line(corner, corner + further * level, strokes.DIMENSION),
