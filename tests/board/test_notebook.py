@@ -27,6 +27,12 @@ def test_the_widget_begins_with_the_text_of_the_scene_and_answers_its_page(board
     assert board.told[1]["agrees"]
 
 
+def test_a_defect_of_an_answer_is_told_to_the_page_of_the_widget(board, monkeypatch) -> None:
+    monkeypatch.setattr("graphkin.board.server.answer", lambda *_: 1 / 0)
+    board._handle_custom_msg({"do": "open", "id": 1}, [])
+    assert [(1, "Defect")] == [(told["id"], told["kind"]) for told in board.told]
+
+
 def test_a_scene_in_any_of_its_forms_is_shown() -> None:
     assert "[links.2]" in graphkin.open_board(graphkin.read("whitworth")).text
     assert "" == graphkin.open_board().text

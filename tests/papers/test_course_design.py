@@ -3,6 +3,7 @@ from __future__ import annotations
 import csv
 import io
 import re
+from types import SimpleNamespace
 
 import pytest
 from pypdf import PdfReader
@@ -11,7 +12,7 @@ import graphkin
 from graphkin import CallError, solver
 from graphkin.checking.readings import report_on
 from graphkin.construction import execute, plan_with_forces
-from graphkin.papers.courses import PlaceValues, Scheme, dealt_out, read_at
+from graphkin.papers.courses import PlaceValues, Scheme, _value_tables, dealt_out, read_at
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from tests import command
@@ -74,8 +75,11 @@ def test_a_force_is_told_without_and_with_a_load_that_begins_just_there():
     scene, asked = mechanism_of(graphkin.read(engine)), (Symbol.parse("M_2"),)
     motion = solver.solve(scene)
     report = report_on(execute(plan_with_forces(motion.structure, None, (), ())), motion)
-    read = read_at("1", 0.5, scene, report, asked).read
-    assert {"M_2": 66.423, "M_2+": -116.309} == {str(s): pytest.approx(v, abs=1e-3) for s, v in read.items()}
+    place = read_at("1", 0.5, scene, report, asked)
+    assert {"M_2": 66.423, "M_2+": -116.309} == {str(s): pytest.approx(v, abs=1e-3) for s, v in place.read.items()}
+    lesson = SimpleNamespace(said=lambda *_, **__: "", letters=SimpleNamespace(vector=str), unit=str)
+    (table,) = _value_tables(lesson, (), ((),), (place,), asked, "°")
+    assert "66.423 / −116.31" == table.rows[0][-1]
 
 
 def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
