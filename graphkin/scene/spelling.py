@@ -212,6 +212,7 @@ def unit_factor(text: str, symbol: Symbol, units: Units) -> float | None:
 
 
 _MEASURED = [Symbol.parse(name) for name in ("v_A", "a_A", "omega_1", "alpha_1", "x_A", "theta_1", "F_1/2", "M_1/2")]
+_TURNED = Symbol.parse("theta_1")
 _MASSES = {"kg", "g", "t", "lb", "lbs", "kgm2", "w", "j", "pa", "mpa"}
 
 
@@ -225,7 +226,7 @@ def is_unit(text: str, units: Units) -> bool:
 
 
 NUMBER = r"[+\-]?(?:\d+(?:[.,]\d+)*[.]?|\.\d+)(?:[eE][+\-]?\d+)?"
-_UNIT = r"\s*(?:°|deg(?:rees?)?|度|(?P<unit>arcmin|arcsec|rad|弧度)(?:ians?)?(?![A-Za-z]|\s*/))"
+_UNIT = r"\s*(?:°|deg(?:rees?)?|度|(?P<unit>arcmin|arcsec|rad|弧度)(?:ians?)?(?![A-Za-z]|\s*(?:/|[·*]?\s*s\b)))"
 _TURN = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)"
 _NUMBERED = _TURN + _UNIT
 _SIDE = re.compile(
@@ -270,8 +271,8 @@ _FROM_COMPASS = (
     re.compile(rf"(?P<base>[东南西北])偏(?P<to>[东南西北])\s*{_NUMBERED}"),
 )
 _BEARING = re.compile(
-    r"(?:\b(?:bearing|azimuth|heading)\b|方位角?)\s*(?:of\b|[=:为是])?\s*(?P<deg>\d+(?:[.,]\d+)?)\s*(?:°|deg(?:rees?)?|度)?",
-    re.IGNORECASE,
+    r"(?:\b(?:bearing|azimuth|heading)\b|方位角?)\s*(?:of\b|[=:为是])?\s*(?P<deg>\d+(?:[.,]\d+)?)"
+    + rf"(?:{_UNIT})?", re.IGNORECASE,
 )
 _POINTS = (
     re.compile(rf"\b(?P<near>{_WORD})[\s-]*(?P<one>north|south)[\s-]*(?P<two>east|west){_ENDING}\b", re.IGNORECASE),
@@ -309,7 +310,7 @@ def read_way(text: str, symbol: Symbol, unit: str = "") -> Way:
     if symbol.is_vector and not way.says:
         bare = re.fullmatch(_TURN, rest.strip(" °;,()"))
         if bare is not None:
-            return Way(*_angle(bare, unit if unit in _ANGLES and unit else "deg"))
+            return Way(*_angle(bare, unit_factor(unit, _TURNED, Units()) or math.radians(1.0)))
         raise ValueError(Phrase("cell no direction", cell=text[:40]))
     if not symbol.is_vector and not way.sense:
         if rest.strip() in ("+", "-"):
@@ -318,9 +319,10 @@ def read_way(text: str, symbol: Symbol, unit: str = "") -> Way:
     return way
 
 
-def _angle(match: re.Match[str], unit: str = "deg") -> tuple[float, float]:
-    """An angle (rad), in the unit behind it if there is one, and half a unit of its last digit."""
-    plain, per = match["deg"].replace(",", "."), _ANGLES[match.groupdict().get("unit") or unit]
+def _angle(match: re.Match[str], per: float = math.radians(1.0)) -> tuple[float, float]:
+    """An angle and half a unit of its last digit (rad), in the unit behind it; without one in units of ``per`` rad."""
+    plain, unit = match["deg"].replace(",", "."), match.groupdict().get("unit")
+    per = _ANGLES[unit.lower()] if unit else per
     places = len(plain.partition(".")[2])
     return float(plain) * per, 0.5 * 10.0**-places * per
 
@@ -464,6 +466,7 @@ _INCHES = re.compile(
     r"(?!\s+(?:the|its|a|direction|sense|positive|negative|[+-]?[xy]|mm|cm|m|rad|deg)\b)", re.IGNORECASE,
 )
 _PER_TIME = re.compile(r"(?<=[\d\s])\b1\s*/\s*(?=s|min)")
+# of a number at the beginning, or behind a sign of punctuation
 _PARTED_SIGN = re.compile(r"(?:^|(?<=[=:;,(\[<])\s*)([+-])\s+(?=[\d.])")
 _SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?!\d)(?:[.,]\d+)?(?![\d.,]*\d)")
 _HAT = r"\s*[*·]?\s*(?:\\?hat)?\{{?[{0}]\u0302?\}}?"
@@ -515,13 +518,14 @@ def read_cell(
     if symbol.is_vector:
         plain = _COMPLEX.sub(r"\1; \2\3", _UNIT_VECTORS.sub(r"\1; \2\3", _PAIR.sub(r"\1; \2", plain)))
         plain = _TWO_WAYS.sub(_two_components, plain)
-        plain = _LABELLED.sub(lambda m: "; ".join((m[2], m[4])[:: 1 if m[1] in "xX" else -1]) + f" {m[3]}", plain)
+        plain = _LABELLED.sub(_x_first, plain)
     plain = re.sub(r"(?:±|\+/-|\+-).*$", "", plain)
     written, rest = way_in(plain, symbol)
     rest = rest.rpartition("=")[2]
     way = written if written.says else way or Way()
     numbers = [match[0].removesuffix(".") for match in _BARE_NUMBER.finditer(rest)]
-    left = re.sub(r"[;:,()\[\]<>⟨⟩|、。\s]+", " ", _ASIDE.sub(" ", _BARE_NUMBER.sub(" ", rest)))
+    left = _ASIDE.sub(" ", _BARE_NUMBER.sub(" ", rest))
+    left = re.sub(r"[;:,()\[\]<>⟨⟩|、。\s]+", " ", left)
     left = " ".join(dict.fromkeys(left.split()))  # both components may bear the unit
     if not symbol.is_vector:
         left = re.sub(r"^k\u0302?$", "", left)  # the unit vector out of the paper
@@ -553,15 +557,24 @@ def _two_components(match: re.Match[str]) -> str:
     return f"{x if right else f'-{x}'}; {y if up else f'-{y}'} {unit}"
 
 
+def _x_first(match: re.Match[str]) -> str:
+    """Two components with their letters as two numbers, that along x first, with the unit."""
+    x, y = (match[2], match[4]) if match[1] in "xX" else (match[4], match[2])
+    return f"{x}; {y} {match[3]}"
+
+
 def _joined(text: str, symbol: Symbol) -> str:
     """Thousands parted by a space or an apostrophe put together: ``1'220``, ``1 220.5``.  Raises ValueError where they
     may be two components."""
     text = re.sub(r"(?<=\d)['’](?=\d{3}(?!\d))", "", text)
     match = _SPACED.search(text)
-    bracketed = symbol.is_vector and text.startswith(("(", "["))
-    if match is None or bracketed or (symbol.is_vector and re.match(r"\s*(?:°|deg|度)", text[match.end() :])):
+    if match is None:
         return text
-    whole = match[0].replace(" ", "")
-    if symbol.is_vector:
-        raise ValueError(Phrase("cell two components", cell=text[:40], number=whole))
-    return text[: match.start()] + whole + text[match.end() :]
+    if not symbol.is_vector:
+        return text[: match.start()] + match[0].replace(" ", "") + text[match.end() :]
+    groups = match[0].split(" ")
+    if re.match(r"\s*(?:°|deg|度)", text[match.end() :]):  # the last is a direction
+        groups.pop()
+    if len(groups) > 1 and not text.startswith(("(", "[")):
+        raise ValueError(Phrase("cell two components", cell=text[:40], number="".join(groups)))
+    return text

@@ -148,6 +148,7 @@ def test_thousands_parted_by_spaces_are_one_number_with_its_decimals(text, value
         ("12° cw from y", 78.0), ("12° W of N", 102.0), ("30", 30.0),
         ("0.5 rad", math.degrees(0.5)), ("57°54'", 57.9), ("S 50°30′ E", -39.5), ("57° 54′ 36″", 57.91),
         ("指向左下", -135.0), ("left and down", -135.0), ("0.5弧度", math.degrees(0.5)),
+        ("1 Radian", math.degrees(1)), ("bearing 57°54'", 32.1),
     ],
 )
 def test_directions_are_read_from_words_and_axes(text, degrees):
@@ -184,4 +185,4 @@ def test_a_column_of_directions_is_in_the_unit_of_its_head(tmp_path):
     (right,) = (v["exact"] for v in graphkin.audit(FOUR_BAR, answers={"Li": {"v_C": 1}}).data["values"])
     way = graphkin.solve(FOUR_BAR).data["positions"][0]["points"]["C@3"]["velocity"]
     angle = math.atan2(*reversed(way))
-    assert ["right"] == verdicts(tmp_path, f"name,v_C,direction (rad)\nLi,{right},{angle:.4f}\n")
+    assert ["right"] == verdicts(tmp_path, f"name,v_C,direction (Radians)\nLi,{right},{angle:.4f}\n")

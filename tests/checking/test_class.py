@@ -103,7 +103,7 @@ def test_thousands_are_read_as_people_part_them(text, value):
     assert pytest.approx(value) == read_cell(text, Symbol.parse("v_D"), Units(), style="").value
 
 
-@pytest.mark.parametrize("text", ["many", "5 apples", "1 2 3", "nan", "4.8 rad/s", "1 220", "1 220.5"])
+@pytest.mark.parametrize("text", ["many", "5 apples", "1 2 3", "nan", "4.8 rad/s", "1 220", "1 220.5", "1 220 168°"])
 def test_what_is_no_such_value_says_so(text):
     with pytest.raises(ValueError, match=r"is no|more than one|unit|two components"):
         read_cell(text, Symbol.parse("v_D"), Units())
