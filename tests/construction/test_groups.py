@@ -615,3 +615,13 @@ def test_where_the_own_position_is_a_dead_point_others_are_drawn_all_the_same(ow
         "sketch": {"C": [100 + 60 * math.cos(math.radians(own)), -20]},  # tells nothing there
     }
     assert graphkin.check(parallel, at=at).ok
+
+
+def test_beside_a_dead_point_others_are_drawn_on_the_side_from_which_the_motion_comes() -> None:
+    kite = {
+        "frame": {"points": {"A": [0, 0], "D": [100, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 100}, "2": {"points": ["B", "C"], "length": 60},
+                  "3": {"points": ["C", "D"], "length": 60}},
+        "driver": {"link": "1", "angle": 0, "omega": 1},
+    }
+    assert graphkin.check(kite, at=350).ok  # ahead the motion ends at 73.7 degrees

@@ -232,28 +232,20 @@ def assembly_at(
 def poses_at(placed: PlacedElements, values: Mapping[str, float]) -> Poses:
     """The poses of some elements' links at driver values (rad, m), on paper of the mechanism's size, followed from the
     scene's own position; errors as for `assembly_at`."""
-    drivers = placed.structure.scene.drivers
-    start = {d.key: d.values[0] for d in drivers}
+    start = {d.key: d.values[0] for d in placed.structure.scene.drivers}
     try:
-        poses = own_position(placed.at_start).poses
+        poses: Poses | Unsolvable = own_position(placed.at_start).poses
     except Unsolvable as stop:
         if stop.status != "dead point" or values == start:
             raise
-        at_start = stop
-    else:
-        return moved_to(placed, start, values, poses)
-    # from beside the dead point, on the side to which the motion goes
-    for end in ways(drivers, [*start.values()], [values[key] for key in start], placed.structure.rolls):
-        travel = {d.key: to - start[d.key] for d, to in zip(drivers, end, strict=True)}
-        length = max(abs(travel[d.key]) / d.span(placed.structure.scene.size) for d in drivers)
-        travel = {key: value * min(0.5, BESIDE / length) for key, value in travel.items()} if length else travel
-        try:
-            poses = own_position(placed.at_start, beside=travel).poses
-        except Unsolvable:
-            continue
-        return moved_to(placed, {key: value + travel[key] for key, value in start.items()}, values, poses)
-    (problem, *_) = at_start.problems
-    raise Unsolvable("dead point", replace(problem, wanted=Phrase("move the own position off")))
+        poses = stop
+    return moved_to(placed, start, values, poses)
+
+
+def off_the_own_position(dead: Unsolvable) -> Unsolvable:
+    """The error of a dead point at the scene's own position, where another is asked for that is followed from it."""
+    (problem, *_) = dead.problems
+    return Unsolvable("dead point", replace(problem, wanted=Phrase("move the own position off")))
 
 
 def cams_in_place(
@@ -285,15 +277,21 @@ def cams_in_place(
 
 
 def moved_to(
-    placed: PlacedElements, start: Mapping[str, float], values: Mapping[str, float], poses: Poses
+    placed: PlacedElements, start: Mapping[str, float], values: Mapping[str, float], poses: Poses | Unsolvable
 ) -> Poses:
     """All links at driver values, followed from their poses at others (``start``), on paper of the mechanism's size.
 
+    Parameters
+    ----------
+    poses : the links at ``start``; the error of a dead point there, at the scene's own position, where each way begins
+        beside it, on its side
+
     Raises
     ------
-    Unsolvable : "not assembled": the motion does not reach the values; the message gives the limit
+    Unsolvable : "not assembled": the motion does not reach the values; the message gives the limit; "dead point": it
+        cannot be followed from the scene's own position
     """
-    if values == start:
+    if values == start and not isinstance(poses, Unsolvable):
         return poses
     scene = placed.structure.scene
     first, goal = [start[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
@@ -309,12 +307,21 @@ def moved_to(
         def near(part: float, guess: Poses, there: Poses, at: Callable[[float], dict[str, float]] = at) -> Poses | None:
             return found_near(placed, at(part), guess, there, there)
 
+        begin, there = 0.0, poses
+        if isinstance(there, Unsolvable):
+            begin = min(0.5, BESIDE / length) if length else 1.0
+            beside = _beside_own_position(placed, at, begin)
+            if beside is None:
+                continue
+            there = beside
         # nothing says yet where the links go: the first step is small
-        steps = walk(near, poses, 0.0, 1.0, longest, longest / 1e13, SURPRISE, longest / 64)
-        part, reached = [(0.0, poses), *steps][-1]
+        steps = walk(near, there, begin, 1.0, longest, longest / 1e13, SURPRISE, longest / 64)
+        part, reached = [(begin, there), *steps][-1]
         if part == 1.0:
             return reached
         limits.append(at(part))
+    if isinstance(poses, Unsolvable) and not limits:
+        raise off_the_own_position(poses)
     raise Unsolvable("not assembled", out_of_reach(scene, dict(zip(start, goal, strict=True)), limits))
 
 
@@ -344,44 +351,62 @@ def found_near(
 
 
 def own_position(
-    placed: PlacedElements, of_group: Callable[[PlacedLinks, LargerGroup], Poses] | None = None,
-    beside: Mapping[str, float] | None = None,
+    placed: PlacedElements, of_group: Callable[[PlacedLinks, LargerGroup], Poses] | None = None
 ) -> PlacedLinks:
-    """The links of some elements at the scene's own driver values, on paper of its size.  Raises as `meeting` and
-    `pick`.
+    """The links of some elements at the scene's own driver values, on paper of its size; ``of_group`` chooses the
+    assembly of a larger group, by trial positions if None.  Raises as `meeting` and `pick`."""
+    values = {d.key: d.values[0] for d in placed.structure.scene.drivers}
+    return _placed_as_own(placed, values, of_group or partial(_group_by_sketch, placed))
+
+
+def _beside_own_position(
+    placed: PlacedElements, at: Callable[[float], Mapping[str, float]], part: float
+) -> Poses | None:
+    """The links at a part of a way from the scene's own position, a dead point, in the assemblies that they have there;
+    None where they do not fit."""
+    branches: dict[int, int] = {}
+    of_group = partial(_group_by_sketch, placed.at_start)
+    try:
+        _placed_as_own(placed.at_start, at(HAIR * part), of_group, branches)
+        return _placed_as_own(placed.at_start, at(part), of_group, branches).poses
+    except Unsolvable:
+        return None
+
+
+def _placed_as_own(
+    placed: PlacedElements, values: Mapping[str, float], of_group: Callable[[PlacedLinks, LargerGroup], Poses],
+    beside: dict[int, int] | None = None,
+) -> PlacedLinks:
+    """The links of some elements at driver values, on paper of the mechanism's size, as the scene's own position has
+    them.
 
     Parameters
     ----------
-    of_group : chooses the assembly of a larger group, by trial positions if None
-    beside : the travel (rad, m) of each driver from a dead point to a place beside it, where the links stand as in the
-        own position, and the group at the dead point by the rule
+    beside : near a dead point at the own position the assemblies of dyads there, by their index, to which those that
+        are not known are added: by the rule of dyads whose loci nearly touch, by what was drawn or sketched of others
     """
-    structure, of_group = placed.structure, of_group or partial(_group_by_sketch, placed)
+    structure = placed.structure
+    scene = structure.scene
+    paper = start_board(structure, 1.0 / scene.size, values)
     wanted = {n for element in placed.elements for n in element.members}
+    branches: dict[int, int] = {} if beside is None else beside
+    if beside is not None:  # near the drawn points alone
+        scene = replace(scene, drawn={}, sketch={**scene.sketch, **scene.drawn})
+
+    def choose(i: int, element: Dyad | LargerGroup) -> Poses:
+        if isinstance(element, LargerGroup):
+            return of_group(paper, element)
+        touching = None if beside is None else meet(paper, element)
+        if touching is not None and touching.poses and touching.sine < TOUCHING:
+            return touching.poses[branches.setdefault(i, 0)]
+        poses = meeting(structure, paper, element).poses
+        if i not in branches:
+            branches[i] = pick(scene, element.links, [paper.fresh(places) for places in poses], 0)
+        return poses[branches[i]]
+
     here = [element for element in structure.elements if wanted.intersection(element.members)]
-    branches, travel = dict[int, int](), beside or {}
-
-    def at(part: float) -> PlacedLinks:
-        values = {d.key: d.values[0] + part * travel.get(d.key, 0.0) for d in structure.scene.drivers}
-        paper = start_board(structure, 1.0 / structure.scene.size, values)
-
-        def choose(i: int, element: Dyad | LargerGroup) -> Poses:
-            if isinstance(element, LargerGroup):
-                return of_group(paper, element)
-            met = meet(paper, element)
-            if part < 1.0 and travel and met.poses and met.sine < TOUCHING:
-                branches[i] = 0
-                return met.poses[0]
-            poses = meeting(structure, paper, element).poses
-            if i not in branches:
-                branches[i] = pick(structure.scene, element.links, [paper.fresh(places) for places in poses], 0)
-            return poses[branches[i]]
-
-        assembled(paper, here, choose, lambda driver: driver.start)
-        return paper
-
-    paper = at(HAIR)
-    return at(1.0) if travel else paper
+    assembled(paper, here, choose, lambda driver: driver.start)
+    return paper
 
 
 def _group_by_sketch(placed: PlacedElements, paper: PlacedLinks, group: LargerGroup) -> Poses:
