@@ -27,7 +27,14 @@ from graphkin.construction.polygons.polygons import AS_DRAWN, RATE, OwnValues, P
 from graphkin.construction.polygons.vector_graph import VectorChain, contacts_of
 from graphkin.construction.position.group_position import each_assembly
 from graphkin.construction.position.links_on_paper import PlacedLinks, reading, stuck, travel
-from graphkin.construction.position.position import Assembly, assembly_at, cams_in_place, own_position, place
+from graphkin.construction.position.position import (
+    Assembly,
+    assembly_at,
+    cams_in_place,
+    off_the_own_position,
+    own_position,
+    place,
+)
 from graphkin.construction.position.reduced_mechanism import PlacedElements
 from graphkin.errors import Unsolvable
 from graphkin.plane import Poses, dot
@@ -411,7 +418,12 @@ def _plan(
     triangles: tuple[Inversion, ...] = ()
     start: Assembly | None = None
     if opened is not structure:
-        taken, start = own_assembly(structure, elements)
+        try:
+            taken, start = own_assembly(structure, elements)
+        except Unsolvable as stop:
+            if stop.status != "dead point" or values == given:
+                raise
+            raise off_the_own_position(stop) from None
         given = {**start.values}
         triangles = tuple(v.followed(given, values) for v in taken)
         values |= {v.key: v.near(given[v.key], v.value(values)) for v in triangles}

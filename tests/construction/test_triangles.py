@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import cmath
 import math
+import tomllib
 
 import pytest
 
 import graphkin
 from graphkin.construction import draft
 from graphkin.scene import mechanism_of
+from graphkin.solver import solve
 from graphkin.structure import Dyad, analyse
 from tests.mechanisms import floating_cylinder
 
@@ -143,3 +145,13 @@ def test_two_cylinders_on_one_link_close_triangles_about_different_links() -> No
     # from link 1 and from link 3 the first cylinder and the second both turn link 2; it has one driver only
     (group,) = structure.larger_groups
     assert [("6/5", "2"), ("8/7", "3")] == [(t.driver.key, t.equivalent.key) for t in group.triangles]
+
+
+def test_bars_in_line_at_the_own_position_beside_a_triangle_are_told_with_what_helps() -> None:
+    scene = tomllib.loads(SCISSOR_LIFT)
+    end, pivot = 1000 * solve(mechanism_of(scene)).position("E")[0], 2500 + 2600j
+    scene["frame"]["points"]["G"] = [pivot.real, pivot.imag]
+    scene["links"] |= {name: {"points": ends, "length": abs(pivot - end) / 2}
+                       for name, ends in (("6", ["E", "F"]), ("7", ["F", "G"]))}
+    with pytest.raises(graphkin.Unsolvable, match="from which others are drawn: move its driver off it"):
+        draft(mechanism_of(scene), at={"4/3": 0.81})

@@ -154,3 +154,14 @@ def test_a_slot_parallel_to_its_own_guide_is_never_assembled(tilt: float) -> Non
 
 def test_parallel_guides_in_one_line_are_a_dead_point() -> None:
     assert "dead point" == at(APART.replace("[100, 0]", "[0, 0]"), 90).status[0]
+
+
+@pytest.mark.parametrize("at", [0.9, 1.0])  # a root of the second parallelogram that is rounding lay beyond the start
+def test_two_parallelograms_in_line_are_left_in_the_assembly_of_the_rule(at: float) -> None:
+    bars = {"1": ("AB", 60), "2": ("BC", 100), "3": ("CD", 60), "4": ("CF", 110), "5": ("FG", 60)}
+    motion = solve(mechanism_of({
+        "frame": {"points": {"A": [0, 0], "D": [100, 0], "G": [210, 0]}},
+        "links": {name: {"points": [*ends], "length": length} for name, (ends, length) in bars.items()},
+        "driver": {"link": "1", "angle": 0, "omega": 1},
+    }), at={"1": np.radians(at)})
+    assert pytest.approx([1.0, 1.0]) == [motion.omega(name)[0] for name in ("3", "5")]

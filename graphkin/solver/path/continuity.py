@@ -15,6 +15,7 @@ from operator import itemgetter
 import numpy as np
 
 from graphkin.search import extrapolated
+from graphkin.solver.algebra.dyads import TOUCH
 from graphkin.solver.algebra.larger_groups import GroupSolved
 from graphkin.solver.algebra.pose import Array
 from graphkin.solver.compiled.engine import group_at
@@ -250,10 +251,13 @@ def _steps(structure: Structure, span: Array) -> int:
 
 def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float) -> Path:
     """A path with the assembly mode of a dyad, which changes at change points, up to the dyad's end."""
-    parts = [s for s in stretches(path.with_sign(i, sign), i, 0.0, path.reach) if s.low <= START]
+    tried = path.with_sign(i, sign)
+    # of a start in a dead point rounding alone may hide where the stretch begins
+    parts = [s for s in stretches(tried, i, 0.0, path.reach)
+             if s.low <= START or tried.discriminant(i, np.array([s.low / 2]))[0] >= -TOUCH]
     first = parts[0] if parts else Stretch(0.0, 0.0, (False, True))
     limit = first.high if first.ends[1] else None
-    flips = np.sort([*first.touches, *_without_leg(path.with_sign(i, sign), i, dyad, first)])
+    flips = np.sort([*first.touches, *_without_leg(tried, i, dyad, first)])
     if dyad.is_two_lines and len(flips):
         limit, flips = float(flips[0]), flips[:0]
     return _passed_by(path, i, partial(_flipped, sign, flips), flips, limit)
