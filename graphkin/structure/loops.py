@@ -314,7 +314,7 @@ def _between(structure: Structure, name: str, tail: str, tip: str) -> list[LoopA
 
 Matrix = NDArray[np.float64]
 Vectors = NDArray[np.complex128]
-ROUNDING = 1e-12  # of the sizes of the terms of a sum
+ROUNDING = 1e-14  # of the sizes of the terms of a sum
 
 
 @dataclass(frozen=True, eq=False, repr=False)

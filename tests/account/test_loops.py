@@ -6,6 +6,7 @@ import graphkin
 from graphkin.account.loops import as_latex
 from graphkin.account.notation import as_vector
 from graphkin.words.symbols import RichText, sign
+from tests.scenes import four_bar
 
 SLOW = graphkin.read("sixbar-420rpm").to_dict()
 SLOW = SLOW | {"driver": {"link": "1", "angle": SLOW["driver"]["angle"], "omega": 1e-7}}
@@ -83,3 +84,9 @@ def test_the_rates_of_what_stands_on_two_links_that_turn_alike_are_0() -> None:
     last = loops.data[-1]
     assert [0.0] * 8 == [x for key in ("velocity", "rates", "acceleration", "second_rates") for x in last[key]]
     assert "v_43 = 0 mm/s, v_54 = 0 mm/s" in loops.plain
+
+
+def test_a_rate_that_is_small_near_a_dead_point_is_more_than_rounding() -> None:
+    solution = graphkin.solve(four_bar(60, 100, 60, 100, driver={"link": "1", "angle": 0, "omega": 1}), at=-1e-5)
+    links = solution.data["positions"][0]["links"]
+    assert pytest.approx([links[n]["alpha"] for n in "23"], rel=0.01) == solution.loops().data[-1]["second_rates"]
