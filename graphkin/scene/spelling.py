@@ -520,9 +520,9 @@ def read_cell(
         plain = _TWO_WAYS.sub(_two_components, plain)
         plain = _LABELLED.sub(_x_first, plain)
     plain = re.sub(r"(?:±|\+/-|\+-).*$", "", plain)
-    written, rest = way_in(plain, symbol)
+    direction, rest = way_in(plain, symbol)
     rest = rest.rpartition("=")[2]
-    way = written if written.says else way or Way()
+    way = direction if direction.says else way or Way()
     numbers = [match[0].removesuffix(".") for match in _BARE_NUMBER.finditer(rest)]
     left = _ASIDE.sub(" ", _BARE_NUMBER.sub(" ", rest))
     left = re.sub(r"[;:,()\[\]<>⟨⟩|、。\s]+", " ", left)
