@@ -654,9 +654,9 @@ def table_of(path: str | os.PathLike[str], largest: int = LARGEST) -> Rows:
         raise CallError.of(shown, "is not utf-8 text", "save it as csv utf-8")
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     first = next(filter(str.strip, text.split("\n")), "")
-    told = re.fullmatch(r'"?sep=([^"])"?[,;\t]*', first.strip(" "), re.IGNORECASE)
-    sign = told[1] if told else max(",;\t", key=first.count)
-    text = text.replace(first, "", 1) if told else text
+    parted = re.fullmatch(r'"?sep=([^"])"?[,;\t]*', first.strip(" "), re.IGNORECASE)
+    sign = parted[1] if parted else max(",;\t", key=first.count)
+    text = text.replace(first, "", 1) if parted else text
     try:
         reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
         lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]

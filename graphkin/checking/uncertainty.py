@@ -225,8 +225,8 @@ def advise(
     figure helps.
 
     Its gaps are the ``symbol`` of the reading, its standard deviation in ``percent`` of its size, the ``cause`` that
-    adds most to it with its ``share`` of the variance (per cent), the ``figure`` to draw twice as large and the
-    ``better`` deviation then (per cent), of each of the three figures drawn so.
+    adds most to it with its ``share`` of the variance (per cent), the ``figure`` (of the three the best to draw twice
+    as large) and the ``better`` deviation with it (per cent).
     """
     largest: dict[str, float] = {}
     for r in readings:
@@ -259,7 +259,8 @@ def advise(
 def _gain(
     planned: Plan, name: str, tools: Tools, symbol: Symbol, moved: Sequence[complex], figure: str
 ) -> float:
-    """The part of a reading's deviation of first order that is left on a figure of twice the size.
+    """The part of a reading's deviation of first order that is left with a figure drawn twice as large; infinite
+    where it cannot be drawn so.
 
     An act that errs by a length in that figure moves the reading half as far then, any other as far as before.  One
     drawing to either side, in which all acts err in proportion to how far they move it, gives the sum of the products

@@ -188,7 +188,7 @@ def examined(
         planned = paper_plan(scene, None, asked, share=False)
         sheet = execute(planned)
         there = {reading.symbol for reading in read_off(sheet)}
-        each = tuple(one for s in asked for one in s.both if not one.plus or one in there)
+        each = tuple(symbol for s in asked for symbol in s.both if not symbol.plus or symbol in there)
         answers = tuple(_answers(scene, motion, sheet, each))
         idle = {s for s, value in answers if not value and s.scope == "force"}  # what a mechanism never loads
         remarks += _remarks(sheet, () if chosen else tuple(s for s in asked if s not in idle), bounds.crossing)

@@ -61,8 +61,9 @@ TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.01  # of the size: so near to a sketch no nearer assembly is looked for
 STEP, LONG_STEP = math.radians(2.0), math.radians(8.0)  # of the driver at most, with larger groups and without
-# Of a driver's span: so far beside a dead point others are followed from; of that: where its groups are told by a sine.
-BESIDE, HAIR, TOUCHING = 1e-4, 1e-3, 2e-3
+BESIDE = 1e-4  # of a driver's span: from so far beside a dead point the motion is followed
+HAIR = 1e-3  # of that travel: so near to the dead point the assemblies are chosen
+TOUCHING = 2e-3  # sine between the loci of a dyad that stands there in its dead point, at most
 SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the size of the mechanism
 
 
@@ -377,13 +378,14 @@ def _placed_as_own(
     placed: PlacedElements, values: Mapping[str, float], of_group: Callable[[PlacedLinks, LargerGroup], Poses],
     beside: dict[int, int] | None = None,
 ) -> PlacedLinks:
-    """The links of some elements at driver values, on paper of the mechanism's size, as the scene's own position has
-    them.
+    """The links of some elements at driver values, on paper of the mechanism's size, in the assemblies of the scene's
+    own position.
 
     Parameters
     ----------
-    beside : near a dead point at the own position the assemblies of dyads there, by their index, to which those that
-        are not known are added: by the rule of dyads whose loci nearly touch, by what was drawn or sketched of others
+    beside : where the own position is a dead point, the assemblies of the dyads beside it, by the index of the element.
+        Missing assemblies are added: the first one of a dyad whose loci nearly touch, the drawn or sketched one of
+        another dyad
     """
     structure = placed.structure
     scene = structure.scene
